@@ -1,0 +1,21 @@
+# Everything comes from the distribution; docs/building.md lists the packages.
+find_package(Threads REQUIRED)
+find_package(Imath REQUIRED)
+find_package(TBB REQUIRED)
+find_package(OpenImageIO REQUIRED)
+find_package(pugixml REQUIRED)
+find_package(fmt REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(nlohmann_json REQUIRED)
+
+# Embree 4 where present, else 3.13; the sources include "world/embree.h", which knows both.
+find_package(embree 4 QUIET)
+if(embree_FOUND)
+  add_library(weft_embree INTERFACE)
+  target_link_libraries(weft_embree INTERFACE embree)
+else()
+  find_package(embree 3.13 REQUIRED)
+  add_library(weft_embree INTERFACE)
+  target_include_directories(weft_embree SYSTEM INTERFACE ${EMBREE_INCLUDE_DIRS})
+  target_link_libraries(weft_embree INTERFACE embree)
+endif()

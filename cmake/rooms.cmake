@@ -1,0 +1,39 @@
+# weft_room(NAME ROOM...): the folder src/NAME as one library that uses the named rooms.
+# A room that has only headers becomes an interface library.
+
+add_library(weft_flags INTERFACE)
+target_compile_options(weft_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wno-missing-field-initializers)
+if(WEFT_WERROR)
+  target_compile_options(weft_flags INTERFACE -Werror)
+endif()
+if(WEFT_ARCH)
+  target_compile_options(weft_flags INTERFACE -march=${WEFT_ARCH})
+endif()
+# Math functions need not set errno, nor trap: neither changes a value, both let code vectorise.
+# -ffast-math stays off: NaNs must remain visible.
+target_compile_options(weft_flags INTERFACE -fno-math-errno -fno-trapping-math)
+if(WEFT_SANITIZE)
+  target_compile_options(weft_flags INTERFACE -fsanitize=${WEFT_SANITIZE} -fno-omit-frame-pointer)
+  target_link_options(weft_flags INTERFACE -fsanitize=${WEFT_SANITIZE})
+endif()
+
+set(weft_libraries_base Imath::Imath)
+set(weft_libraries_image OpenImageIO::OpenImageIO)
+set(weft_libraries_io pugixml::pugixml fmt::fmt)
+set(weft_libraries_schema nlohmann_json::nlohmann_json fmt::fmt)
+set(weft_libraries_world weft_embree TBB::tbb)
+set(weft_libraries_session TBB::tbb fmt::fmt Threads::Threads)
+
+function(weft_room name)
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cpp)
+  list(TRANSFORM ARGN PREPEND weft_ OUTPUT_VARIABLE rooms)
+  if(sources)
+    add_library(weft_${name} STATIC ${sources})
+    set(scope PUBLIC)
+  else()
+    add_library(weft_${name} INTERFACE)
+    set(scope INTERFACE)
+  endif()
+  target_include_directories(weft_${name} ${scope} ${PROJECT_SOURCE_DIR}/src)
+  target_link_libraries(weft_${name} ${scope} weft_flags ${rooms} ${weft_libraries_${name}})
+endfunction()

@@ -1,0 +1,57 @@
+#include "base/error.h"
+
+#include <algorithm>
+#include <cctype>
+#include <numeric>
+
+namespace weft {
+
+std::string to_string(SourceLocation const& where) {
+    std::string s = where.file;
+    if (where.line > 0) s += ":" + std::to_string(where.line);
+    if (where.line > 0 && where.column > 0) s += ":" + std::to_string(where.column);
+    return s;
+}
+
+namespace {
+
+/// Levenshtein distance with two rows, case ignored.
+int edit_distance(std::string_view a, std::string_view b) {
+    auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
+    std::vector<int> previous(b.size() + 1), current(b.size() + 1);
+    std::iota(previous.begin(), previous.end(), 0);
+    for (size_t i = 1; i <= a.size(); ++i) {
+        current[0] = int(i);
+        for (size_t j = 1; j <= b.size(); ++j) {
+            int const substitute = previous[j - 1] + (lower(a[i - 1]) != lower(b[j - 1]));
+            current[j] = std::min({previous[j] + 1, current[j - 1] + 1, substitute});
+        }
+        std::swap(previous, current);
+    }
+    return previous[b.size()];
+}
+
+} // namespace
+
+std::string nearest_name(std::string_view name, std::span<std::string const> candidates) {
+    int best = std::max(2, int(name.size()) / 3) + 1;
+    std::string nearest;
+    for (std::string const& c : candidates) {
+        int const d = edit_distance(name, c);
+        if (d < best && d < int(std::max(name.size(), c.size()))) {
+            best = d;
+            nearest = c;
+        }
+    }
+    return nearest;
+}
+
+std::string suggestion(std::string_view name, std::span<std::string const> candidates) {
+    if (std::string const near = nearest_name(name, candidates); !near.empty())
+        return " (did you mean '" + near + "'?)";
+    std::string list;
+    for (std::string const& c : candidates) list += (list.empty() ? "" : ", ") + c;
+    return list.empty() ? "" : "; known: " + list;
+}
+
+} // namespace weft

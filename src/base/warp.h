@@ -1,0 +1,53 @@
+// Maps from the unit square to the domains that light transport integrates over, with their
+// densities. All keep stratification: equal areas go to equal measure.
+#pragma once
+
+#include "base/vec.h"
+
+namespace weft {
+
+/// Unit square to unit disk: Shirley and Chiu 1997, concentric. Density 1 / pi.
+inline Vec2 square_to_disk(Vec2 u) {
+    float const x = 2 * u.x - 1, y = 2 * u.y - 1;
+    if (x == 0 && y == 0) return {0, 0};
+    bool const wide = std::abs(x) > std::abs(y);
+    float const r = wide ? x : y;
+    float const phi = wide ? (kPi / 4) * (y / x) : kPi / 2 - (kPi / 4) * (x / y);
+    return {r * std::cos(phi), r * std::sin(phi)};
+}
+
+/// Cosine-weighted hemisphere around +z. Density cos / pi.
+inline Vec3 square_to_cosine_hemisphere(Vec2 u) {
+    Vec2 const d = square_to_disk(u);
+    return {d.x, d.y, safe_sqrt(1 - d.x * d.x - d.y * d.y)};
+}
+inline float cosine_hemisphere_pdf(float cos_theta) { return std::max(cos_theta, 0.f) * kInvPi; }
+
+/// Whole unit sphere. Density 1 / (4 pi).
+inline Vec3 square_to_sphere(Vec2 u) {
+    float const z = 1 - 2 * u.x, r = safe_sqrt(1 - z * z), phi = 2 * kPi * u.y;
+    return {r * std::cos(phi), r * std::sin(phi), z};
+}
+inline constexpr float kSpherePdf = kInvPi / 4;
+
+/// Cone around +z given as 1 - cos of its half angle (kept apart because 1 - cos vanishes
+/// first for small cones). Density 1 / (2 pi one_minus_cos).
+inline Vec3 square_to_cone(Vec2 u, float one_minus_cos) {
+    float const h = u.x * one_minus_cos; // 1 - cos theta
+    float const r = safe_sqrt(h * (2 - h)), phi = 2 * kPi * u.y;
+    return {r * std::cos(phi), r * std::sin(phi), 1 - h};
+}
+inline float cone_pdf(float one_minus_cos) { return 1 / (2 * kPi * one_minus_cos); }
+
+/// Barycentric (b1, b2) uniform over a triangle: Heitz 2019, "A low-distortion map between
+/// triangle and square". Density 1 / area.
+inline Vec2 square_to_triangle(Vec2 u) {
+    if (u.y > u.x) {
+        float const x = u.x * 0.5f;
+        return {x, u.y - x};
+    }
+    float const y = u.y * 0.5f;
+    return {u.x - y, y};
+}
+
+} // namespace weft
