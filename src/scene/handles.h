@@ -1,0 +1,39 @@
+// Typed indices into the vectors of a Scene. `category` is the tag that such an object has in a
+// scene file.
+#pragma once
+
+#include "schema/values.h"
+
+namespace weft::scene {
+
+using schema::FileName;
+using schema::Input;
+
+struct CameraKind { static constexpr char const* category = "camera"; };
+struct MaterialKind { static constexpr char const* category = "bsdf"; };
+struct EmissionKind { static constexpr char const* category = "emission"; };
+struct VolumeKind { static constexpr char const* category = "volume"; };
+struct MediumKind { static constexpr char const* category = "medium"; };
+struct ShapeKind { static constexpr char const* category = "shape"; };
+struct InstanceKind { static constexpr char const* category = "instance"; };
+struct LightKind { static constexpr char const* category = "light"; };
+struct SamplerKindTag { static constexpr char const* category = "sampler"; };
+struct FilterKindTag { static constexpr char const* category = "filter"; };
+struct SceneKind { static constexpr char const* category = "scene"; };
+struct ImageKind { static constexpr char const* category = "image"; };
+
+using TextureId = schema::Id<schema::TextureKind>;
+using CameraId = schema::Id<CameraKind>;
+using MaterialId = schema::Id<MaterialKind>;
+using EmissionId = schema::Id<EmissionKind>;
+using VolumeId = schema::Id<VolumeKind>;
+using MediumId = schema::Id<MediumKind>;
+using ShapeId = schema::Id<ShapeKind>;
+using InstanceId = schema::Id<InstanceKind>;
+using LightId = schema::Id<LightKind>;
+using SamplerId = schema::Id<SamplerKindTag>;
+using FilterId = schema::Id<FilterKindTag>;
+using SceneId = schema::Id<SceneKind>;
+using ImageId = schema::Id<ImageKind>;
+
+} // namespace weft::scene

@@ -1,0 +1,172 @@
+// Surface materials, emission, and the media that fill closed shapes.
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <variant>
+
+#include "schema/describe.h"
+#include "scene/handles.h"
+
+namespace weft::scene {
+
+struct Diffuse {
+    static constexpr schema::TypeInfo info{
+        .category = "bsdf", .type = "diffuse", .help = "Lambert's ideal matte surface, the same from both sides."};
+    Input<Color> albedo{Color(0.8f)};
+
+    template <class F>
+    constexpr void describe(F&& f) {
+        f("albedo", albedo, {.min = 0, .max = 1, .help = "Fraction of light that is reflected."});
+    }
+};
+
+struct Conductor {
+    static constexpr schema::TypeInfo info{
+        .category = "bsdf", .type = "conductor", .help = "A perfect mirror."};
+    Input<Color> reflectance{Color(1)};
+
+    template <class F>
+    constexpr void describe(F&& f) {
+        f("reflectance", reflectance, {.min = 0, .max = 1, .help = "Fraction of light that is reflected."});
+    }
+};
+
+enum class Microfacets { ggx, beckmann };
+constexpr auto choices(Microfacets) { return std::array<std::string_view, 2>{"ggx", "beckmann"}; }
+
+struct RoughConductor {
+    static constexpr schema::TypeInfo info{
+        .category = "bsdf", .type = "roughconductor", .help = "A mirror of microscopic facets: brushed or cast metal."};
+    Input<Color> reflectance{Color(1)};
+    Input<float> roughness{0.5f};
+    Microfacets distribution = Microfacets::ggx;
+
+    template <class F>
+    constexpr void describe(F&& f) {
+        f("reflectance", reflectance, {.min = 0, .max = 1, .help = "Fraction of light that a facet reflects."});
+        f("roughness", roughness, {.min = 0, .max = 1, .help = "0 is a mirror, 1 is dull; alpha = max(roughness^2, 0.001)."});
+        f("distribution", distribution, {.help = "Distribution of the facets' normals."});
+    }
+};
+
+struct Dielectric {
+    static constexpr schema::TypeInfo info{
+        .category = "bsdf", .type = "dielectric", .help = "A smooth boundary such as glass or water: it reflects and refracts."};
+    Input<float> ior{1.5f};
+    Input<Color> reflectance{Color(1)};
+    Input<Color> transmittance{Color(1)};
+
+    template <class F>
+    constexpr void describe(F&& f) {
+        f("ior", ior, {.min = 1e-3, .max = 1000, .soft_max = 3, .help = "Index of refraction of the inside: water 1.33, glass 1.5, diamond 2.4."});
+        f("reflectance", reflectance, {.min = 0, .max = 1, .help = "A factor on what is reflected."});
+        f("transmittance", transmittance, {.min = 0, .max = 1, .help = "A factor on what is refracted."});
+    }
+};
+
+struct RoughDielectric {
+    static constexpr schema::TypeInfo info{
+        .category = "bsdf", .type = "roughdielectric", .help = "A boundary of microscopic facets: frosted glass, ice (Walter et al. 2007)."};
+    Input<float> ior{1.5f};
+    Input<Color> reflectance{Color(1)};
+    Input<Color> transmittance{Color(1)};
+    Input<float> roughness{0.5f};
+    Microfacets distribution = Microfacets::ggx;
+
+    template <class F>
+    constexpr void describe(F&& f) {
+        f("ior", ior, {.min = 1e-3, .max = 1000, .soft_max = 3, .help = "Index of refraction of the inside."});
+        f("reflectance", reflectance, {.min = 0, .max = 1, .help = "A factor on what is reflected."});
+        f("transmittance", transmittance, {.min = 0, .max = 1, .help = "A factor on what is refracted."});
+        f("roughness", roughness, {.min = 0, .max = 1, .help = "0 is smooth, 1 is dull; alpha = max(roughness^2, 0.001)."});
+        f("distribution", distribution, {.help = "Distribution of the facets' normals."});
+    }
+};
+
+struct Principled {
+    static constexpr schema::TypeInfo info{
+        .category = "bsdf",
+        .type = "principled",
+        .help = "Four parameters from plastic to metal: a Lambert lobe under a GGX lobe whose "
+                "Fresnel term divides the light between them."};
+    Input<Color> base_color{Color(0.8f)};
+    Input<float> roughness{0.5f};
+    Input<float> metallic{0};
+    Input<float> specular{0.5f};
+
+    template <class F>
+    constexpr void describe(F&& f) {
+        f("baseColor", base_color, {.min = 0, .max = 1, .help = "Colour of the matte part, and of the metal's reflection."});
+        f("roughness", roughness, {.min = 0, .max = 1, .help = "0 is a mirror, 1 is dull; alpha = max(roughness^2, 0.001)."});
+        f("metallic", metallic, {.min = 0, .max = 1, .help = "0 is plastic, wood, stone; 1 is metal."});
+        f("specular", specular, {.min = 0, .max = 1, .help = "Strength of the uncoloured reflection: F = specular * Schlick(0.08 (1 - metallic))."});
+    }
+};
+
+struct VolumeBoundary {
+    static constexpr schema::TypeInfo info{
+        .category = "bsdf",
+        .type = "volume",
+        .help = "No surface at all: the shape bounds a medium (smoke, fog, milk). Its density is "
+                "the instance's `<volume>`, 1 where there is none."};
+    Color absorption{0};
+    Color scatter{1};
+    float phase = 0;
+    Color base_color{1};
+
+    template <class F>
+    constexpr void describe(F&& f) {
+        f("absorption", absorption, {.unit = "1/scene", .min = 0, .help = "Absorption coefficient at density 1."});
+        f("scatter", scatter, {.unit = "1/scene", .min = 0, .help = "Scattering coefficient at density 1."});
+        f("phase", phase, {.min = -0.999, .max = 0.999, .help = "Henyey-Greenstein g: -1 backwards, 0 evenly, 1 forwards."});
+        f("baseColor", base_color, {.min = 0, .max = 1, .help = "Fraction of scattered light that is not absorbed, by colour."});
+    }
+};
+
+using Material = std::variant<Diffuse, Conductor, RoughConductor, Dielectric, RoughDielectric,
+                              Principled, VolumeBoundary>;
+
+struct LambertianEmission {
+    static constexpr schema::TypeInfo info{
+        .category = "emission", .type = "lambertian", .help = "Emits the same radiance in all directions, from the front side only."};
+    Input<Color> emission{Color(1)};
+
+    template <class F>
+    constexpr void describe(F&& f) {
+        f("emission", emission, {.unit = "W/(m^2 sr)", .min = 0, .help = "Radiance."});
+    }
+};
+
+struct ConstantVolume {
+    static constexpr schema::TypeInfo info{
+        .category = "volume", .type = "constant", .help = "The same density everywhere."};
+    float value = 1;
+
+    template <class F>
+    constexpr void describe(F&& f) {
+        f("value", value, {.min = 0, .help = "Factor on the coefficients of the `volume` bsdf."});
+    }
+};
+
+struct HomogeneousMedium {
+    static constexpr schema::TypeInfo info{
+        .category = "medium",
+        .type = "homogeneous",
+        .help = "What fills a closed shape (inside an `instance`), or all space that no shape "
+                "fills (inside a `scene`): coloured glass, milk, fog.",
+        .example = "<instance><shape type=\"sphere\"/><bsdf type=\"dielectric\"/>\n"
+                   "  <medium type=\"homogeneous\" absorption=\"2,0.5,0.1\"/></instance>"};
+    Color absorption{0};
+    Color scatter{0};
+    float phase = 0;
+
+    template <class F>
+    constexpr void describe(F&& f) {
+        f("absorption", absorption, {.unit = "1/scene", .min = 0, .help = "Absorption coefficient."});
+        f("scatter", scatter, {.unit = "1/scene", .min = 0, .help = "Scattering coefficient."});
+        f("phase", phase, {.min = -0.999, .max = 0.999, .help = "Henyey-Greenstein g: -1 backwards, 0 evenly, 1 forwards."});
+    }
+};
+
+} // namespace weft::scene

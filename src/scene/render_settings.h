@@ -1,0 +1,214 @@
+// How a scene is rendered: samplers, pixel filters and integrators.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "schema/describe.h"
+#include "scene/handles.h"
+
+namespace weft::scene {
+
+/// One struct per sampler type: all have the same parameter.
+template <class Type>
+struct SamplerSettings {
+    static constexpr schema::TypeInfo info{.category = "sampler", .type = Type::name, .help = Type::help};
+    int count = 64;
+
+    template <class F>
+    constexpr void describe(F&& f) {
+        f("count", count, {.min = 1, .max = 16777216, .soft_max = 4096, .help = "Samples per pixel."});
+    }
+};
+struct SobolType {
+    static constexpr std::string_view name = "sobol", help = "Owen-scrambled Sobol points: the default.";
+};
+struct HaltonType {
+    static constexpr std::string_view name = "halton", help = "Scrambled Halton points.";
+};
+struct IndependentType {
+    static constexpr std::string_view name = "independent", help = "Independent random numbers.";
+};
+using Sampler = std::variant<SamplerSettings<SobolType>, SamplerSettings<HaltonType>,
+                             SamplerSettings<IndependentType>>;
+
+enum class FilterShape { box, tent, gaussian, blackmanHarris };
+constexpr auto choices(FilterShape) {
+    return std::array<std::string_view, 4>{"box", "tent", "gaussian", "blackmanHarris"};
+}
+
+/// What every integrator needs to know: what to render and where to put the picture.
+struct RenderTarget {
+    SceneId scene;
+    SamplerId sampler;
+    ImageId image;
+    FilterShape filter = FilterShape::box;
+    float filter_width = 0;
+
+    template <class F>
+    constexpr void describe(F&& f) {
+        f("scene", scene, {.required = true, .help = "What is rendered."});
+        f("sampler", sampler, {.help = "Samples per pixel and their pattern; Sobol with 64 where there is none."});
+        f("image", image, {.help = "The picture: `<image id=\"name\"/>` is written as name.exr beside the scene."});
+        f("filter", filter, {.help = "Pixel filter."});
+        f("filterWidth", filter_width, {.unit = "pixels", .min = 0, .max = 16, .help = "Full width of the filter; 0 = the usual one (box 1, tent 2, Gaussian 3, Blackman-Harris 3)."});
+    }
+};
+
+struct CameraIntegrator {
+    static constexpr schema::TypeInfo info{
+        .category = "integrator", .type = "camera", .help = "Draws the directions of camera rays and a grid, for debugging cameras."};
+    RenderTarget target;
+    bool grid = true;
+    Color grid_color{0};
+    float grid_frequency = 10;
+
+    template <class F>
+    constexpr void describe(F&& f) {
+        f.group(target);
+        f("grid", grid, {.help = "Draw the grid in the plane z = 1; without it, the direction itself is the colour."});
+        f("gridColor", grid_color, {.help = "Colour of the grid's lines."});
+        f("gridFrequency", grid_frequency, {.min = 0, .help = "Lines per scene unit."});
+    }
+};
+
+enum class AovVariable { normals, distance, uv, bvh };
+constexpr auto choices(AovVariable) {
+    return std::array<std::string_view, 4>{"normals", "distance", "uv", "bvh"};
+}
+
+struct AovIntegrator {
+    static constexpr schema::TypeInfo info{
+        .category = "integrator", .type = "aov", .help = "Draws one property of the first hit."};
+    RenderTarget target;
+    AovVariable variable = AovVariable::normals;
+    float scale = 1;
+
+    template <class F>
+    constexpr void describe(F&& f) {
+        f.group(target);
+        f("variable", variable, {.help = "normals: shading normal as (n + 1) / 2; distance; uv; bvh: the kernel does not count its steps, so this draws the bounding-volume depth proxy 1 on a hit and 0 elsewhere."});
+        f("scale", scale, {.min = 1e-12, .help = "Divides the value."});
+    }
+};
+
+struct NormalIntegrator {
+    static constexpr schema::TypeInfo info{
+        .category = "integrator", .type = "normal", .help = "Draws the shading normal at the first hit; black where there is none."};
+    RenderTarget target;
+    bool remap = true;
+
+    template <class F>
+    constexpr void describe(F&& f) {
+        f.group(target);
+        f("remap", remap, {.help = "Draw (n + 1) / 2 instead of n."});
+    }
+};
+
+struct AlbedoIntegrator {
+    static constexpr schema::TypeInfo info{
+        .category = "integrator", .type = "albedo", .help = "Draws the fraction of light that the first surface scatters."};
+    RenderTarget target;
+
+    template <class F>
+    constexpr void describe(F&& f) {
+        f.group(target);
+    }
+};
+
+struct DirectIntegrator {
+    static constexpr schema::TypeInfo info{
+        .category = "integrator", .type = "direct", .help = "Light that reaches the camera over at most one surface."};
+    RenderTarget target;
+
+    template <class F>
+    constexpr void describe(F&& f) {
+        f.group(target);
+    }
+};
+
+inline constexpr schema::Attr kDepthAttr{
+    .min = -1,
+    .max = 100000,
+    .soft_max = 64,
+    .help = "Number of surfaces, media and background seen along a path, the first hit counted "
+            "(2 is direct light alone); -1 is no limit."};
+
+enum class Strategy { mis, nee, bsdf };
+constexpr auto choices(Strategy) { return std::array<std::string_view, 3>{"mis", "nee", "bsdf"}; }
+
+struct PathIntegrator {
+    static constexpr schema::TypeInfo info{
+        .category = "integrator",
+        .type = "path",
+        .help = "All light, over any number of surfaces and media.",
+        .example = "<integrator type=\"path\" depth=\"16\">\n  <ref id=\"scene\"/>\n"
+                   "  <sampler type=\"sobol\" count=\"256\"/>\n  <image id=\"picture\"/>\n</integrator>"};
+    RenderTarget target;
+    int depth = 16;
+    Strategy strategy = Strategy::mis;
+    int roulette_depth = 2;
+
+    template <class F>
+    constexpr void describe(F&& f) {
+        f.group(target);
+        f("depth", depth, kDepthAttr);
+        f("strategy", strategy, {.help = "How light is found: by the lights (nee), by the surfaces (bsdf), or both combined by multiple importance sampling (mis). All have the same mean."});
+        f("rouletteDepth", roulette_depth, {.min = 1, .max = 100000, .help = "Vertices of a path that Russian roulette leaves alone."});
+    }
+};
+
+/// lightwave's names for the path integrator with a fixed strategy.
+template <class Type>
+struct NamedPathIntegrator {
+    static constexpr schema::TypeInfo info{.category = "integrator", .type = Type::name, .help = Type::help};
+    RenderTarget target;
+    int depth = 2;
+
+    template <class F>
+    constexpr void describe(F&& f) {
+        f.group(target);
+        f("depth", depth, kDepthAttr);
+    }
+};
+struct PathtracerType {
+    static constexpr std::string_view name = "pathtracer", help = "`path` with strategy nee.";
+    static constexpr Strategy strategy = Strategy::nee;
+};
+struct MisType {
+    static constexpr std::string_view name = "mis", help = "`path` with strategy mis.";
+    static constexpr Strategy strategy = Strategy::mis;
+};
+
+using Integrator =
+    std::variant<CameraIntegrator, AovIntegrator, NormalIntegrator, AlbedoIntegrator,
+                 DirectIntegrator, PathIntegrator, NamedPathIntegrator<PathtracerType>,
+                 NamedPathIntegrator<MisType>>;
+
+/// The picture that an integrator makes.
+struct ImageOutput {
+    static constexpr schema::TypeInfo info{
+        .category = "image", .type = "", .help = "A picture; its id names the file."};
+
+    template <class F>
+    constexpr void describe(F&&) {}
+};
+
+struct ImageTest {
+    static constexpr schema::TypeInfo info{
+        .category = "test",
+        .type = "image",
+        .help = "Renders its integrator to ID_test.exr beside the scene and compares with ID_ref.exr."};
+    float mae = 0.1f;
+    float me = 2e-4f;
+
+    template <class F>
+    constexpr void describe(F&& f) {
+        f("mae", mae, {.min = 0, .help = "Largest mean absolute error over all pixels and channels."});
+        f("me", me, {.min = 0, .help = "Largest absolute value of the mean signed error."});
+    }
+};
+
+} // namespace weft::scene

@@ -1,0 +1,61 @@
+// The scene as plain data: vectors of structs that refer to each other by typed indices. Readers
+// make it, `World::commit` turns it into what a render reads.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "image/image.h"
+#include "scene/camera.h"
+#include "scene/light.h"
+#include "scene/material.h"
+#include "scene/mesh.h"
+#include "scene/render_settings.h"
+#include "scene/shape.h"
+#include "scene/texture.h"
+
+namespace weft::scene {
+
+/// What stands directly inside `<scene>`.
+struct SceneContents {
+    static constexpr schema::TypeInfo info{
+        .category = "scene", .type = "", .help = "A camera, lights and instances; also materials, textures and shapes with an id, for use by reference."};
+    CameraId camera;
+    std::vector<LightId> lights;
+    std::vector<InstanceId> instances;
+    MediumId medium;
+
+    template <class F>
+    constexpr void describe(F&& f) {
+        f("camera", camera, {.required = true, .help = "The point of view."});
+        f("light", lights, {.help = "The lights."});
+        f("instance", instances, {.help = "What is there to be seen."});
+        f("medium", medium, {.help = "What fills all space that no shape fills: fog around the camera."});
+    }
+};
+
+struct Scene {
+    SceneContents contents;
+    std::vector<Camera> cameras;
+    std::vector<Texture> textures;
+    std::vector<Material> materials;
+    std::vector<LambertianEmission> emissions;
+    std::vector<ConstantVolume> volumes;
+    std::vector<HomogeneousMedium> media;
+    std::vector<Shape> shapes;
+    std::vector<Instance> instances;
+    std::vector<Light> lights;
+
+    /// What files hold; shared, since several scenes of one document may use them.
+    std::vector<std::shared_ptr<Mesh const>> meshes;
+    std::vector<std::shared_ptr<image::Image const>> images;
+
+    /// Where instances and lights were written, for messages.
+    std::vector<SourceLocation> instance_locations;
+    std::vector<SourceLocation> light_locations;
+    std::vector<std::string> instance_names;
+};
+
+} // namespace weft::scene

@@ -1,0 +1,69 @@
+// Textures: what varies over a surface.
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <variant>
+
+#include "schema/describe.h"
+#include "scene/handles.h"
+
+namespace weft::scene {
+
+struct ConstantTexture {
+    static constexpr schema::TypeInfo info{
+        .category = "texture", .type = "constant", .help = "The same value everywhere."};
+    Color value{1};
+
+    template <class F>
+    constexpr void describe(F&& f) {
+        f("value", value, {.required = true, .help = "The value; one number stands for a grey."});
+    }
+};
+
+enum class TextureBorder { repeat, clamp };
+constexpr auto choices(TextureBorder) { return std::array<std::string_view, 2>{"repeat", "clamp"}; }
+enum class TextureFilter { bilinear, nearest };
+constexpr auto choices(TextureFilter) { return std::array<std::string_view, 2>{"bilinear", "nearest"}; }
+
+struct ImageTexture {
+    static constexpr schema::TypeInfo info{
+        .category = "texture",
+        .type = "image",
+        .help = "An image file over the unit square of uv; v runs upwards. 8 and 16 bit files are "
+                "sRGB unless `linear` is set, float files (EXR, HDR) are linear.",
+        .example = "<texture name=\"albedo\" type=\"image\" filename=\"wood.png\"/>"};
+    FileName filename;
+    float exposure = 1;
+    TextureBorder border = TextureBorder::repeat;
+    TextureFilter filter = TextureFilter::bilinear;
+    bool linear = false;
+
+    template <class F>
+    constexpr void describe(F&& f) {
+        f("filename", filename, {.required = true, .help = "PNG, JPEG, EXR, HDR, TIFF, ...; relative to the scene file."});
+        f("exposure", exposure, {.min = 0, .help = "A factor on all values."});
+        f("border", border, {.help = "What lies outside of [0, 1]: the image again, or its border pixels."});
+        f("filter", filter, {.help = "How values between pixel centres are made."});
+        f("linear", linear, {.help = "The file holds data (roughness, normals), not sRGB colours."});
+    }
+};
+
+struct Checkerboard {
+    static constexpr schema::TypeInfo info{
+        .category = "texture", .type = "checkerboard", .help = "Two colours in alternating cells."};
+    Color color0{0};
+    Color color1{1};
+    Vec2 scale{1, 1};
+
+    template <class F>
+    constexpr void describe(F&& f) {
+        f("color0", color0, {.help = "Colour of the cell at the origin of uv."});
+        f("color1", color1, {.help = "The other colour."});
+        f("scale", scale, {.help = "Number of cells along u and v."});
+    }
+};
+
+using Texture = std::variant<ConstantTexture, ImageTexture, Checkerboard>;
+
+} // namespace weft::scene

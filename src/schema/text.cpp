@@ -1,0 +1,136 @@
+#include "schema/text.h"
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+namespace weft::schema {
+
+namespace {
+
+template <class T>
+std::string shortest(T value) {
+    char buffer[64];
+    auto const end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
+    return {buffer, end};
+}
+
+bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+
+std::string_view trimmed(std::string_view s) {
+    while (!s.empty() && is_space(s.front())) s.remove_prefix(1);
+    while (!s.empty() && is_space(s.back())) s.remove_suffix(1);
+    return s;
+}
+
+/// Whether a double fits into a float: beyond that it would become infinite.
+bool fits_float(double v) { return std::abs(v) <= double(std::numeric_limits<float>::max()); }
+
+} // namespace
+
+std::string number_text(float value) { return shortest(value); }
+std::string number_text(double value) { return shortest(value); }
+
+std::string numbers_text(std::span<float const> values) {
+    std::string text;
+    for (float v : values) text += (text.empty() ? "" : ",") + number_text(v);
+    return text;
+}
+
+std::optional<std::vector<double>> read_numbers(std::string_view text) {
+    std::vector<double> values;
+    text = trimmed(text);
+    while (!text.empty()) {
+        if (text.front() == '+' && text.size() > 1 && text[1] != '-') text.remove_prefix(1);
+        double value = 0;
+        auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (error != std::errc() || !std::isfinite(value)) return {};
+        values.push_back(value);
+        std::string_view const rest(end, size_t(text.data() + text.size() - end));
+        text = trimmed(rest);
+        if (text.empty()) break;
+        bool const comma = text.front() == ',';
+        if (!comma && text.size() == rest.size()) return {}; // "1.5abc"
+        if (comma) text = trimmed(text.substr(1));
+        if (text.empty()) return {}; // a comma with nothing behind it
+    }
+    return values;
+}
+
+std::optional<std::vector<double>> read_components(std::string_view text, int count) {
+    auto values = read_numbers(text);
+    if (!values) return {};
+    if (values->size() == 1) values->resize(size_t(count), values->front());
+    if (values->size() != size_t(count)) return {};
+    for (double v : *values)
+        if (!fits_float(v)) return {};
+    return values;
+}
+
+bool TextForm<int>::read(std::string_view text, int& v) {
+    text = trimmed(text);
+    if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+    int value = 0;
+    auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size()) return false;
+    v = value;
+    return true;
+}
+
+bool TextForm<float>::read(std::string_view text, float& v) {
+    auto const values = read_components(text, 1);
+    if (!values) return false;
+    v = float(values->front());
+    return true;
+}
+
+std::string TextForm<Color>::write(Color const& v) {
+    if (v.r == v.g && v.g == v.b) return number_text(v.r);
+    return numbers_text(std::array{v.r, v.g, v.b});
+}
+
+bool TextForm<Color>::read(std::string_view text, Color& v) {
+    auto const c = read_components(text, 3);
+    if (!c) return false;
+    v = {float((*c)[0]), float((*c)[1]), float((*c)[2])};
+    return true;
+}
+
+std::string TextForm<Vec3>::write(Vec3 const& v) { return numbers_text(std::array{v.x, v.y, v.z}); }
+
+bool TextForm<Vec3>::read(std::string_view text, Vec3& v) {
+    auto const c = read_components(text, 3);
+    if (!c) return false;
+    v = {float((*c)[0]), float((*c)[1]), float((*c)[2])};
+    return true;
+}
+
+std::string TextForm<Vec2>::write(Vec2 const& v) { return numbers_text(std::array{v.x, v.y}); }
+
+bool TextForm<Vec2>::read(std::string_view text, Vec2& v) {
+    auto const c = read_components(text, 2);
+    if (!c) return false;
+    v = {float((*c)[0]), float((*c)[1])};
+    return true;
+}
+
+std::string TextForm<Affined>::write(Affined const& m) {
+    if (m == Affined()) return "";
+    std::string text;
+    for (int row = 0; row < 3; ++row)
+        for (Vec3d const& column : {m.x, m.y, m.z, m.origin})
+            text += number_text(column[row]) + ",";
+    return text + "0,0,0,1";
+}
+
+bool TextForm<Affined>::read(std::string_view text, Affined& m) {
+    auto const read = read_numbers(text);
+    if (!read || read->size() != 16) return false;
+    auto const& v = *read;
+    if (v[12] != 0 || v[13] != 0 || v[14] != 0 || v[15] == 0) return false; // a projection
+    auto column = [&](int c) { return Vec3d(v[size_t(c)], v[size_t(4 + c)], v[size_t(8 + c)]) / v[15]; };
+    m = {column(0), column(1), column(2), column(3)};
+    return true;
+}
+
+} // namespace weft::schema
