@@ -19,3 +19,12 @@ else()
   target_include_directories(weft_embree SYSTEM INTERFACE ${EMBREE_INCLUDE_DIRS})
   target_link_libraries(weft_embree INTERFACE embree)
 endif()
+
+# Debian's OpenImageIO names an OpenCV folder that only another package would make.
+get_target_property(folders OpenImageIO::OpenImageIO INTERFACE_INCLUDE_DIRECTORIES)
+foreach(folder ${folders})
+  if(IS_DIRECTORY ${folder})
+    list(APPEND existing_folders ${folder})
+  endif()
+endforeach()
+set_target_properties(OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${existing_folders}")

@@ -20,22 +20,20 @@ struct Color {
     constexpr Color& operator-=(Color const& c) { return *this = {r - c.r, g - c.g, b - c.b}; }
     constexpr Color& operator*=(Color const& c) { return *this = {r * c.r, g * c.g, b * c.b}; }
     constexpr Color& operator*=(float s) { return *this = {r * s, g * s, b * s}; }
-    friend constexpr Color operator+(Color a, Color const& b) { return a += b; }
-    friend constexpr Color operator-(Color a, Color const& b) { return a -= b; }
-    friend constexpr Color operator*(Color a, Color const& b) { return a *= b; }
-    friend constexpr Color operator*(Color a, float s) { return a *= s; }
-    friend constexpr Color operator*(float s, Color a) { return a *= s; }
-    friend constexpr Color operator/(Color const& a, Color const& b) {
-        return {a.r / b.r, a.g / b.g, a.b / b.b};
+    friend constexpr Color operator+(Color lhs, Color const& rhs) { return lhs += rhs; }
+    friend constexpr Color operator-(Color lhs, Color const& rhs) { return lhs -= rhs; }
+    friend constexpr Color operator*(Color lhs, Color const& rhs) { return lhs *= rhs; }
+    friend constexpr Color operator*(Color lhs, float s) { return lhs *= s; }
+    friend constexpr Color operator*(float s, Color rhs) { return rhs *= s; }
+    friend constexpr Color operator/(Color const& lhs, Color const& rhs) {
+        return {lhs.r / rhs.r, lhs.g / rhs.g, lhs.b / rhs.b};
     }
-    friend constexpr Color operator/(Color a, float s) { return a *= 1 / s; }
+    friend constexpr Color operator/(Color lhs, float s) { return lhs *= 1 / s; }
     friend constexpr bool operator==(Color const&, Color const&) = default;
 };
 
 /// Relative luminance Y (ITU-R BT.709).
-constexpr float luminance(Color const& c) {
-    return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b;
-}
+constexpr float luminance(Color const& c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
 constexpr float max_component(Color const& c) { return std::max(c.r, std::max(c.g, c.b)); }
 constexpr float min_component(Color const& c) { return std::min(c.r, std::min(c.g, c.b)); }
 constexpr float average(Color const& c) { return (c.r + c.g + c.b) * (1 / 3.f); }

@@ -29,7 +29,10 @@ uint32_t Distribution1D::find(float u) const {
 Distribution1D::Sample Distribution1D::sample(float u) const {
     Choice const c = choose(u);
     float const n = float(size());
-    float const x = std::min((float(c.index) + c.u) / n, kOneMinusEpsilon);
+    float x = std::min((float(c.index) + c.u) / n, kOneMinusEpsilon);
+    // Rounding may carry x over the edge of its bin, where the density is another one, or 0.
+    while (x * n >= float(c.index + 1)) x = std::nextafter(x, 0.f);
+    while (x * n < float(c.index)) x = std::nextafter(x, 1.f);
     return {x, c.probability * n, c.index};
 }
 

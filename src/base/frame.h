@@ -30,6 +30,8 @@ struct Frame {
         }
         n = normal;
         s = p * (1 / std::sqrt(l2));
+        // Again: a tangent near the normal leaves little of itself but rounding along the normal.
+        s = normalize(s - n * dot(n, s));
         t = cross(n, s);
     }
 

@@ -85,7 +85,7 @@ constexpr size_t described_count() {
 
 /// Whether `describe` names every member of the aggregate T. (Compilers whose std::string is not
 /// yet constexpr cannot know, and leave the check to the others.)
-#if __cpp_lib_constexpr_string >= 201907L
+#if !defined(__clang__) || __clang_major__ >= 16
 template <class T>
 inline constexpr bool all_described = detail::member_count<T>() == detail::described_count<T>();
 #else

@@ -1,0 +1,66 @@
+# Every way to build, test and render Weft; docs/building.md says more.
+# SETUP=true skips the installing of packages, on a distribution that tools/setup does not know.
+
+SETUP ?= tools/setup
+FUZZ_SECONDS ?= 60
+WEFT := build/release/weft
+
+.DEFAULT_GOAL := help
+.PHONY: help weft demo test bench docs format check dev asan tsan fuzz clean
+
+help: ## Print this list
+	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-8s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
+
+demo: ## Install what is missing, build, and render scenes/demo.xml to build/demo.exr and .png
+demo: weft
+	$(WEFT) render scenes/demo.xml -o build/demo.exr -o build/demo.png
+	@echo "The pictures are build/demo.exr and build/demo.png"
+
+test: ## Install what is missing, build, and run every test
+dev: ## The same in build/dev, with asserts and debug information
+asan: ## The same in build/asan, under the address and undefined-behaviour sanitizers
+tsan: ## The same in build/tsan, under the thread sanitizer
+test: preset = release
+dev asan tsan: preset = $@
+test dev asan tsan:
+	@$(SETUP) build test
+	cmake --preset $(preset)
+	cmake --build --preset $(preset)
+	ctest --preset $(preset)
+
+# The tests need packages that a renderer does not: without them, a first build leaves them out.
+weft: ## Build only the renderer, build/release/weft
+	@$(SETUP) build
+	@test -f build/release/build.ninja || cmake --preset release -DWEFT_TESTS=OFF -DWEFT_BENCH=OFF
+	cmake --build --preset release --target weft
+
+bench: ## Run the benchmarks; figures go to build/bench.json
+	@$(SETUP) build test
+	cmake --preset release
+	cmake --build --preset release --target weft_bench
+	build/release/weft_bench --benchmark_out=build/bench.json --benchmark_out_format=json
+
+docs: ## Regenerate docs/reference from the schemas
+docs: weft
+	$(WEFT) docs docs/reference
+
+format: ## Rewrite every C++ file to .clang-format
+	@$(SETUP) check
+	tools/check_format --fix
+
+check: ## Check the direction of includes between rooms, and the format
+	@$(SETUP) check
+	tools/check_layers
+	tools/check_format
+
+fuzz: ## Run each fuzzer for FUZZ_SECONDS (60); inputs are kept in build/fuzz/corpus
+	@$(SETUP) build fuzz
+	cmake --preset fuzz
+	cmake --build --preset fuzz
+	@set -e; for fuzzer in build/fuzz/fuzz_*; do \
+	    corpus=build/fuzz/corpus/$${fuzzer##*/}; mkdir -p $$corpus; echo "$$fuzzer"; \
+	    $$fuzzer -max_total_time=$(FUZZ_SECONDS) -artifact_prefix=build/fuzz/ $$corpus; \
+	done
+
+clean: ## Remove build/
+	rm -rf build

@@ -1,0 +1,25 @@
+// The commands of the `weft` program. Each adds its options to the command line and says what to
+// run; `run` returns the exit code.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace weft::apps {
+
+/// 0 done; 1 a test or comparison failed; 2 the user's input was wrong; 3 internal error;
+/// 130 stopped by Ctrl-C.
+enum ExitCode { kDone = 0, kFailed = 1, kInputError = 2, kInternalError = 3, kInterrupted = 130 };
+
+using Command = std::function<int()>;
+
+/// Each registers one subcommand; when it is the one that the user named, `chosen` is what to run.
+void add_render_command(CLI::App& app, Command& chosen);
+void add_test_command(CLI::App& app, Command& chosen);
+void add_info_command(CLI::App& app, Command& chosen);
+void add_compare_command(CLI::App& app, Command& chosen);
+void add_help_command(CLI::App& app, Command& chosen);
+void add_schema_command(CLI::App& app, Command& chosen);
+void add_docs_command(CLI::App& app, Command& chosen);
+
+} // namespace weft::apps

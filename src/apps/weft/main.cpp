@@ -1,0 +1,35 @@
+// The command line: `weft render`, `test`, `info`, `compare`, `help`, `schema`, `docs`.
+#include <cstdio>
+
+#include "apps/weft/commands.h"
+#include "base/error.h"
+
+int main(int argc, char** argv) {
+    using namespace weft::apps;
+    CLI::App app{"Weft, a path tracer", "weft"};
+    app.set_version_flag("--version", "weft " WEFT_VERSION);
+    app.require_subcommand(1);
+    app.footer("Start with:  weft render SCENE.xml    weft help");
+    Command chosen;
+    add_render_command(app, chosen);
+    add_test_command(app, chosen);
+    add_info_command(app, chosen);
+    add_compare_command(app, chosen);
+    add_help_command(app, chosen);
+    add_schema_command(app, chosen);
+    add_docs_command(app, chosen);
+    try {
+        app.parse(argc, argv);
+    } catch (CLI::ParseError const& e) {
+        return app.exit(e) == 0 ? kDone : kInputError;
+    }
+    try {
+        return chosen();
+    } catch (weft::InputError const& e) {
+        std::fprintf(stderr, "error: %s\n", e.what());
+        return kInputError;
+    } catch (std::exception const& e) {
+        std::fprintf(stderr, "internal error: %s\n", e.what());
+        return kInternalError;
+    }
+}

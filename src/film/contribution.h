@@ -1,0 +1,45 @@
+// What a path hands to the film: a value, the light it came from, and how it travelled. One call
+// carries all of it, so that pictures by light or by component never need a second loop.
+#pragma once
+
+#include <cstdint>
+
+#include "base/color.h"
+
+namespace weft::film {
+
+/// What a path did at a vertex.
+enum class Bounce : uint8_t { None, Diffuse, Glossy, Specular, DiffuseTransmission, GlossyTransmission, SpecularTransmission, Volume };
+
+/// The kinds of a path's bounces from the camera on: 4 bits each, the first 16 of them.
+class PathSignature {
+  public:
+    void append(Bounce bounce) {
+        if (length_ < 16) bits_ |= uint64_t(bounce) << (4 * length_);
+        ++length_;
+    }
+    uint32_t length() const { return length_; } ///< all bounces, those beyond the 16th included
+    Bounce operator[](uint32_t i) const { return Bounce((bits_ >> (4 * i)) & 15); }
+
+  private:
+    uint64_t bits_ = 0;
+    uint32_t length_ = 0;
+};
+
+struct Contribution {
+    Color value;                 ///< radiance at the camera
+    int32_t light = -1;          ///< index of the light; -1: an emissive object that is no light
+    PathSignature const& path;
+};
+
+/// Collects the contributions of one sample of one pixel.
+class SampleSink {
+  public:
+    void add(Contribution const& c) { beauty_ += c.value; }
+    Color const& beauty() const { return beauty_; }
+
+  private:
+    Color beauty_;
+};
+
+} // namespace weft::film

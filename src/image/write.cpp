@@ -1,0 +1,278 @@
+#include "image/write.h"
+
+#include "base/color.h"
+#include "image/atomic_file.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <functional>
+#include <memory>
+
+#include <unistd.h>
+
+namespace weft::image {
+
+namespace {
+
+/// A file that the format libraries believe never fails. Told of an error, the JPEG library ends
+/// the process and the EXR library, which writes its tables while it closes, says nothing; so they
+/// are not told, and the first error is asked for at the end.
+class PatientFile : public OIIO::Filesystem::IOProxy {
+  public:
+    PatientFile(int descriptor, std::string const& path)
+        : IOProxy(path, Write), descriptor_(descriptor) {}
+    /// Not "file": that name has OpenImageIO cast to its own type.
+    char const* proxytype() const override { return "patient"; }
+    size_t write(void const* data, size_t size) override {
+        pwrite(data, size, m_pos);
+        m_pos += int64_t(size);
+        return size;
+    }
+    size_t pwrite(void const* data, size_t size, int64_t offset) override {
+        auto const* bytes = static_cast<char const*>(data);
+        size_ = std::max(size_, size_t(offset) + size);
+        for (size_t done = 0; done < size && reason_ == 0;) {
+            ssize_t const n =
+                ::pwrite(descriptor_, bytes + done, size - done, off_t(offset) + off_t(done));
+            if (n >= 0)
+                done += size_t(n);
+            else if (errno != EINTR)
+                reason_ = errno;
+        }
+        return size;
+    }
+    size_t read(void* data, size_t size) override {
+        size_t const n = pread(data, size, m_pos);
+        m_pos += int64_t(n);
+        return n;
+    }
+    size_t pread(void* data, size_t size, int64_t offset) override {
+        ssize_t const n = ::pread(descriptor_, data, size, off_t(offset));
+        return n < 0 ? 0 : size_t(n);
+    }
+    size_t size() const override { return size_; }
+    int reason() const { return reason_; } ///< errno of the first failure, or 0
+
+  private:
+    int descriptor_;
+    size_t size_ = 0;
+    int reason_ = 0;
+};
+
+using Fill = std::function<bool(OIIO::ImageOutput&)>;
+
+void write_file(std::string const& path, OIIO::ImageSpec const& spec, Fill const& fill) {
+    replace_file(path, [&](int descriptor, std::string const& temporary) {
+        PatientFile file(descriptor, temporary);
+        auto const output = OIIO::ImageOutput::create(temporary);
+        if (!output) throw IoError(path + ": cannot write the image: " + OIIO::geterror());
+        bool const filled =
+            output->set_ioproxy(&file) && output->open(temporary, spec) && fill(*output);
+        bool const closed = output->close();
+        if (file.reason() != 0)
+            throw IoError(path + ": cannot write the image: " + std::strerror(file.reason()));
+        if (!filled || !closed)
+            throw IoError(path + ": cannot write the image: " + output->geterror());
+    });
+}
+
+void add_metadata(OIIO::ImageSpec& spec, Metadata const& metadata) {
+    for (auto const& [name, value] : metadata) spec.attribute(name, value);
+}
+
+std::vector<std::string> channel_names(Image const& image) {
+    if (!image.names.empty()) return image.names;
+    switch (image.channels) {
+    case 1:
+        return {"Y"};
+    case 2:
+        return {"Y", "A"};
+    case 3:
+        return {"R", "G", "B"};
+    default:
+        return {"R", "G", "B", "A"};
+    }
+}
+
+[[maybe_unused]] bool is_whole(Image const& image) {
+    return image.width > 0 && image.height > 0 && image.channels > 0 &&
+           image.pixels.size() == image.index(0, image.height, 0);
+}
+
+/// Clips with NaN to 0, encodes and rounds.
+uint8_t encode(float linear) {
+    float const clipped = linear > 0 ? std::min(linear, 1.f) : 0;
+    return uint8_t(linear_to_srgb(clipped) * 255 + 0.5f);
+}
+
+/// What write.h describes for PNG, cut to the first `kept` channels.
+std::vector<uint8_t> encode_pixels(Image const& image, int kept) {
+    bool const has_alpha = image.channels == 2 || image.channels == 4;
+    int const colors = has_alpha ? image.channels - 1 : image.channels;
+    std::vector<uint8_t> bytes;
+    bytes.reserve(image.pixels.size());
+    for (size_t i = 0; i < image.pixels.size(); i += size_t(image.channels)) {
+        float const* const p = &image.pixels[i];
+        float const alpha = has_alpha ? p[colors] : 1;
+        // Without alpha in the file the colours stay as they are over black.
+        bool const divide = kept > colors && alpha > 0;
+        for (int c = 0; c < colors; ++c) bytes.push_back(encode(divide ? p[c] / alpha : p[c]));
+        if (kept > colors)
+            bytes.push_back(uint8_t((alpha > 0 ? std::min(alpha, 1.f) : 0) * 255 + 0.5f));
+    }
+    return bytes;
+}
+
+std::string extension_of(std::string const& path) {
+    std::string e = std::filesystem::path(path).extension().string();
+    std::transform(e.begin(), e.end(), e.begin(),
+                   [](char c) { return char(std::tolower(static_cast<unsigned char>(c))); });
+    return e;
+}
+
+bool is_display_format(std::string const& e) {
+    return e == ".png" || e == ".jpg" || e == ".jpeg" || e == ".tif" || e == ".tiff";
+}
+
+void require_extension(std::string const& path, std::string const& expected) {
+    if (std::string const e = extension_of(path); e != expected)
+        throw InputError({path}, "expected the extension '" + expected + "', found '" + e + "'");
+}
+
+void check_extension(std::string const& path) {
+    std::string const e = extension_of(path);
+    if (e == ".exr" || e == ".hdr" || is_display_format(e)) return;
+    throw InputError({path}, "expected an image file's extension (.exr, .hdr, .png, .jpg, .tiff), "
+                             "found '" +
+                                 e + "'");
+}
+
+void check_display_channels(std::string const& path, Image const& image) {
+    if (image.channels > 4)
+        throw InputError({path}, "expected 1 to 4 channels, found " +
+                                     std::to_string(image.channels) + "; EXR takes them");
+}
+
+void write_display(std::string const& path, Image const& image, Metadata const& metadata) {
+    assert(is_whole(image));
+    check_display_channels(path, image);
+    bool const jpeg = extension_of(path).starts_with(".jp");
+    bool const has_alpha = image.channels == 2 || image.channels == 4;
+    int const kept = jpeg && has_alpha ? image.channels - 1 : image.channels;
+    std::vector<uint8_t> const bytes = encode_pixels(image, kept);
+    OIIO::ImageSpec spec(image.width, image.height, kept, OIIO::TypeDesc::UINT8);
+    spec.attribute("oiio:UnassociatedAlpha", 1);
+    spec.attribute("compression", jpeg ? "jpeg:95" : "zip");
+    spec.attribute("jpeg:subsampling", "4:4:4");
+    if (extension_of(path).starts_with(".tif"))
+        // Or else OpenImageIO writes the time of day, and an empty date is no TIFF.
+        spec.attribute("DateTime", "1970:01:01 00:00:00");
+    else
+        // Not in TIFF: it would go to an EXIF directory, with which OpenImageIO 2.4 writes a file
+        // that it cannot read.
+        spec.attribute("oiio:ColorSpace", "sRGB");
+    add_metadata(spec, metadata);
+    write_file(path, spec, [&](OIIO::ImageOutput& output) {
+        return output.write_image(OIIO::TypeDesc::UINT8, bytes.data());
+    });
+}
+
+void write_hdr(std::string const& path, Image const& image, Metadata const& metadata) {
+    assert(is_whole(image));
+    check_display_channels(path, image);
+    // RGBE has three channels and neither negative nor unbounded numbers.
+    std::vector<float> rgb;
+    rgb.reserve(size_t(image.width) * size_t(image.height) * 3);
+    for (size_t i = 0; i < image.pixels.size(); i += size_t(image.channels))
+        for (size_t c = 0; c < 3; ++c) {
+            float const x = image.pixels[i + (image.channels >= 3 ? c : 0)];
+            rgb.push_back(x > 0 ? std::min(x, 1e38f) : 0);
+        }
+    OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::FLOAT);
+    add_metadata(spec, metadata);
+    write_file(path, spec, [&](OIIO::ImageOutput& output) {
+        return output.write_image(OIIO::TypeDesc::FLOAT, rgb.data());
+    });
+}
+
+} // namespace
+
+void write_exr(std::string const& path, int width, int height, std::span<Channel const> channels,
+               Metadata const& metadata, Precision precision) {
+    require_extension(path, ".exr");
+    OIIO::ImageSpec spec(width, height, int(channels.size()),
+                         precision == Precision::half ? OIIO::TypeDesc::HALF
+                                                      : OIIO::TypeDesc::FLOAT);
+    spec.channelnames.clear();
+    for (Channel const& c : channels) spec.channelnames.push_back(c.name);
+    spec.attribute("compression", "zip");
+    spec.attribute("DateTime", ""); // or else OpenImageIO writes the time of day
+    add_metadata(spec, metadata);
+    write_file(path, spec, [&](OIIO::ImageOutput& output) {
+        // In strips, so that an image with many layers is never held twice; 64 lines are whole
+        // blocks of the compression.
+        constexpr int kStrip = 64;
+        size_t const n = channels.size(), row = size_t(width) * n;
+        std::vector<float> strip(row * size_t(std::min(kStrip, height)));
+        for (int y = 0; y < height; y += kStrip) {
+            int const end = std::min(y + kStrip, height);
+            size_t const first = size_t(y) * size_t(width);
+            size_t const count = size_t(end - y) * size_t(width);
+            for (size_t c = 0; c < n; ++c)
+                for (size_t i = 0; i < count; ++i)
+                    strip[i * n + c] = channels[c].data[(first + i) * channels[c].stride];
+            if (!output.write_scanlines(y, end, 0, OIIO::TypeDesc::FLOAT, strip.data()))
+                return false;
+        }
+        return true;
+    });
+}
+
+void write_exr(std::string const& path, Image const& image, Metadata const& metadata,
+               Precision precision) {
+    assert(is_whole(image));
+    std::vector<std::string> const names = channel_names(image);
+    if (names.size() != size_t(image.channels))
+        throw InputError({path}, "expected a name for each of " + std::to_string(image.channels) +
+                                     " channels, found " + std::to_string(names.size()));
+    std::vector<Channel> channels;
+    for (size_t c = 0; c < names.size(); ++c)
+        channels.push_back({names[c], image.pixels.data() + c, names.size()});
+    write_exr(path, image.width, image.height, channels, metadata, precision);
+}
+
+void write_png(std::string const& path, Image const& image, Metadata const& metadata) {
+    require_extension(path, ".png");
+    write_display(path, image, metadata);
+}
+
+void write_image(std::string const& path, Image const& image, Metadata const& metadata) {
+    check_extension(path);
+    std::string const e = extension_of(path);
+    if (e == ".exr")
+        write_exr(path, image, metadata);
+    else if (e == ".hdr")
+        write_hdr(path, image, metadata);
+    else
+        write_display(path, image, metadata);
+}
+
+void check_writable(std::string const& path) {
+    check_extension(path);
+    if (std::filesystem::is_directory(path))
+        throw InputError({path}, "expected a file to write, found a folder");
+    try {
+        probe_folder(path);
+    } catch (IoError const& e) {
+        throw InputError(e.what());
+    }
+}
+
+} // namespace weft::image

@@ -1,0 +1,49 @@
+// Writing images, each as one step: the file appears whole or not at all.
+//
+// Bytes go to a temporary file in the same folder, are flushed to the disk, and take the place of
+// the old file by rename(2). Where anything fails the temporary file is removed, the old file
+// stays as it was, and IoError tells why. Equal input gives equal bytes: no date is
+// written, but for TIFF, where it is 1970.
+#pragma once
+
+#include "image/image.h"
+
+#include <span>
+
+namespace weft::image {
+
+/// One channel of an EXR file, anywhere in memory: pixel i is data[i * stride].
+struct Channel {
+    std::string name; ///< "R", or with a layer "albedo.R"
+    float const* data = nullptr;
+    size_t stride = 1;
+};
+
+enum class Precision { half, float32 };
+
+/// A scanline EXR with ZIP compression (16 lines each), linear numbers as they are, not-a-number
+/// included. Halves saturate at infinity beyond 65504. Throws InputError where the extension of
+/// `path` is not .exr.
+void write_exr(std::string const& path, int width, int height, std::span<Channel const> channels,
+               Metadata const& metadata = {}, Precision precision = Precision::float32);
+
+/// The same for an interleaved image, its channels named by `names` or else Y, YA, RGB, RGBA
+/// by their number; more than four must be named.
+void write_exr(std::string const& path, Image const& image, Metadata const& metadata = {},
+               Precision precision = Precision::float32);
+
+/// An 8-bit PNG of a linear image with 1 to 4 channels: clipped to [0, 1], encoded as sRGB and
+/// rounded; not-a-number is 0. Alpha is linear; colours, premultiplied in `image`, are divided by
+/// it first, as PNG wants them. Throws InputError where the extension is not .png.
+void write_png(std::string const& path, Image const& image, Metadata const& metadata = {});
+
+/// By the extension: .exr and .hdr hold linear floats, .png, .jpg, .jpeg, .tif and .tiff what
+/// `write_png` describes (JPEG, at quality 95, and HDR without alpha). Throws InputError for
+/// another extension.
+void write_image(std::string const& path, Image const& image, Metadata const& metadata = {});
+
+/// To be asked before a long render: throws InputError where `path` has an unknown extension, is a
+/// folder, or lies in one that is missing or in which no file can be made.
+void check_writable(std::string const& path);
+
+} // namespace weft::image

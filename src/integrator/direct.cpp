@@ -1,0 +1,40 @@
+#include "integrator/direct.h"
+
+#include "integrator/media_walk.h"
+#include "media/phase.h"
+
+namespace weft::integrator {
+
+lobes::LobeValue ScatterPoint::eval(Vec3 const& wi) const {
+    if (bsdf) return bsdf->eval(wo, wi);
+    float const phase = media::henyey_greenstein(dot(wo, wi), g);
+    return {Color(phase), phase};
+}
+
+void direct(world::World const& world, scene::Strategy strategy, PathState const& path, ScatterPoint const& point,
+            Vec3 const& u, film::SampleSink& sink) {
+    world::LightSample const light = world.lights().sample(point.p, point.n, u);
+    // What rays can find is left to them where the strategy says so.
+    if (!(light.pdf > 0) || (strategy == scene::Strategy::bsdf && !light.delta)) return;
+    lobes::LobeValue const value = point.eval(light.wi);
+    if (is_black(value.f) || is_black(light.radiance)) return;
+    world::Ray shadow{point.origin(light.wi), light.wi, light.distance, path.ray.time};
+    if (light.distance < kInfinity) {
+        // From the offset origin to just before the light, whose own offset was added to `p`.
+        float const moved = dot(shadow.origin - point.p, light.wi);
+        shadow.t_max = (light.distance - moved) * (1 - 4 * std::numeric_limits<float>::epsilon()) - light.p_error;
+        if (!(shadow.t_max > 0)) return;
+    }
+    Color const through = transmittance(world, shadow, path.media);
+    if (is_black(through)) return;
+    bool const combine = strategy == scene::Strategy::mis && !light.delta;
+    float const weight = combine ? power_heuristic(light.pdf, value.pdf) : 1;
+    sink.add({path.throughput * value.f * light.radiance * through * (weight / light.pdf), light.light, path.signature});
+}
+
+float found_weight(scene::Strategy strategy, PathState const& path, float light_pdf) {
+    if (strategy == scene::Strategy::bsdf || path.pdf == 0 || light_pdf == 0) return 1;
+    return strategy == scene::Strategy::nee ? 0 : power_heuristic(path.pdf, light_pdf);
+}
+
+} // namespace weft::integrator

@@ -1,0 +1,25 @@
+// Light that reaches a point straight from lights, and how its estimates are combined.
+#pragma once
+
+#include "film/contribution.h"
+#include "integrator/path_state.h"
+#include "scene/render_settings.h"
+
+namespace weft::integrator {
+
+/// The weight of a sample of density `pdf` where another strategy has density `other`: the power
+/// heuristic with exponent 2 (Veach 1997, 9.2.2).
+inline float power_heuristic(float pdf, float other) {
+    float const ratio = other / pdf; // divided first: squares of large densities overflow
+    return 1 / (1 + ratio * ratio);
+}
+
+/// One light sample at `point`, added to `sink`: light tree, shadow ray through transparent
+/// surfaces and media, MIS weight.
+void direct(world::World const& world, scene::Strategy strategy, PathState const& path, ScatterPoint const& point,
+            Vec3 const& u, film::SampleSink& sink);
+
+/// The weight of light of density `light_pdf` that the ray of `path` found by itself.
+float found_weight(scene::Strategy strategy, PathState const& path, float light_pdf);
+
+} // namespace weft::integrator

@@ -1,0 +1,61 @@
+#include "integrator/media_walk.h"
+
+#include <vector>
+
+namespace weft::integrator {
+
+namespace {
+
+/// A straight line through more boundaries than this is taken as lost: only broken geometry has
+/// so many.
+constexpr int kMaxCrossings = 1000;
+
+} // namespace
+
+void cross_boundary(world::World const& world, shading::SurfacePoint const& point, Vec3 const& direction, media::MediumStack& stack) {
+    if (!world.object(point.object).has_interior) return;
+    if (dot(direction, point.ng) < 0) stack.enter(world.interior(point.object, point.uv));
+    else stack.leave(point.object);
+}
+
+Color transmittance(world::World const& world, world::Ray ray, media::MediumStack stack) {
+    Color through(world.visibility(ray));
+    if (is_black(through) || !world.has_media()) return through;
+    // Nothing opaque lies ahead: the boundaries that are met only change the medium.
+    for (int crossing = 0; crossing < kMaxCrossings; ++crossing) {
+        world::Hit const hit = world.intersect(ray);
+        int32_t const medium = stack.current().medium;
+        if (medium >= 0) through *= media::transmittance(world.medium(medium), std::min(hit.t, ray.t_max));
+        if (!hit || is_black(through)) return through;
+        shading::SurfacePoint const point = world.surface(ray, hit);
+        cross_boundary(world, point, ray.direction, stack);
+        Vec3 const origin = shading::offset_origin(point, ray.direction);
+        ray.t_max -= dot(origin - ray.origin, ray.direction);
+        ray.origin = origin;
+        if (!(ray.t_max > 0)) return through;
+    }
+    return Color(0);
+}
+
+media::MediumStack media_at(world::World const& world, Vec3 const& p) {
+    // Objects whose first crossing leaves them contain the point.
+    std::vector<media::Interior> containing;
+    std::vector<uint32_t> seen;
+    world::Ray ray{p, normalize(Vec3(0.4082f, 0.7071f, 0.5774f))};
+    for (int crossing = 0; crossing < kMaxCrossings; ++crossing) {
+        world::Hit const hit = world.intersect(ray);
+        if (!hit) break;
+        shading::SurfacePoint const point = world.surface(ray, hit);
+        bool const fresh = std::find(seen.begin(), seen.end(), point.object) == seen.end();
+        seen.push_back(point.object);
+        if (fresh && world.object(point.object).has_interior && dot(point.ng, ray.direction) > 0)
+            containing.push_back(world.interior(point.object, point.uv));
+        ray.origin = shading::offset_origin(point, ray.direction);
+    }
+    // The outermost is left last, so it was entered first.
+    media::MediumStack stack = world.outside();
+    for (auto it = containing.rbegin(); it != containing.rend(); ++it) stack.enter(*it);
+    return stack;
+}
+
+} // namespace weft::integrator

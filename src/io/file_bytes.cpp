@@ -1,0 +1,71 @@
+#include "io/file_bytes.h"
+
+#include "base/error.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <new>
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace weft::io {
+
+namespace {
+
+/// Closes a file descriptor on every way out.
+struct Descriptor {
+    int fd;
+    explicit Descriptor(int descriptor) : fd(descriptor) {}
+    Descriptor(Descriptor const&) = delete;
+    Descriptor& operator=(Descriptor const&) = delete;
+    ~Descriptor() {
+        if (fd >= 0) ::close(fd);
+    }
+};
+
+[[noreturn]] void fail(std::string const& path, char const* what) {
+    throw InputError({path}, std::string(what) + ": " + std::strerror(errno));
+}
+
+FileBytes::Buffer allocate(size_t size) {
+    constexpr size_t kHugePage = size_t(1) << 21;
+    bool const large = size >= kHugePage;
+    size_t const alignment = large ? kHugePage : 64;
+    size_t const rounded = (std::max<size_t>(size, 1) + alignment - 1) / alignment * alignment;
+    FileBytes::Buffer data(static_cast<char*>(std::aligned_alloc(alignment, rounded)));
+    if (!data) throw std::bad_alloc();
+#ifdef MADV_HUGEPAGE
+    if (large) ::madvise(data.get(), rounded, MADV_HUGEPAGE); // advice: may be refused
+#endif
+    return data;
+}
+
+} // namespace
+
+FileBytes read_file(std::string const& path) {
+    // O_NONBLOCK: opening a pipe that nobody writes to must not wait before it is refused.
+    Descriptor const file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+    if (file.fd < 0) fail(path, "cannot open the file");
+    struct stat status = {};
+    if (::fstat(file.fd, &status) != 0) fail(path, "cannot open the file");
+    if (!S_ISREG(status.st_mode))
+        throw InputError({path}, S_ISDIR(status.st_mode) ? "expected a file, found a folder"
+                                                         : "expected a regular file");
+    size_t const expected = size_t(status.st_size);
+    FileBytes::Buffer data = allocate(expected);
+    size_t size = 0;
+    while (size < expected) {
+        ssize_t const n = ::read(file.fd, data.get() + size, expected - size);
+        if (n < 0 && errno == EINTR) continue;
+        if (n < 0) fail(path, "cannot read the file");
+        if (n == 0) break; // it shrank meanwhile; what is missing shows when parsed
+        size += size_t(n);
+    }
+    return {std::move(data), size};
+}
+
+} // namespace weft::io

@@ -1,0 +1,84 @@
+// Fills one `scene::Scene` from elements: which tag and type become which struct, references by
+// id, and the files that objects name.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "io/object_reader.h"
+#include "scene/scene.h"
+
+namespace weft::io {
+
+/// What the scenes of one document share: the elements with an id, and the files read so far.
+struct Document {
+    std::unique_ptr<XmlElement> root;
+    std::multimap<std::string, XmlElement const*, std::less<>> ids;
+    std::map<std::string, std::shared_ptr<scene::Mesh const>> meshes;
+    std::map<std::string, std::shared_ptr<image::Image const>> images;
+};
+
+/// Collects the ids of `document.root`.
+void index_ids(Document& document);
+
+class SceneBuilder {
+  public:
+    SceneBuilder(Document& document, scene::Scene& scene) : document_(document), scene_(scene) {}
+
+    /// Follows a `<ref>`; any other element is returned as it is.
+    XmlElement const& resolve(XmlElement const& element) const;
+
+    /// The object that an element (or the element it refers to) describes, read once.
+    template <class Kind>
+    schema::Id<Kind> object(XmlElement const& element);
+
+    /// The value of a texture where it is constant over the surface, else null.
+    Color const* constant_texture(schema::Id<schema::TextureKind> id) const;
+
+    /// Reads one element of a category with several types.
+    template <class Variant>
+    Variant read_variant(XmlElement const& element);
+    template <class T>
+    T read_struct(XmlElement const& element);
+
+    scene::Sampler sampler;                    ///< the last one read
+    XmlElement const* scene_element = nullptr; ///< the last one referred to
+    XmlElement const* image_element = nullptr;
+
+  private:
+    int32_t add(schema::TextureKind, XmlElement const& element);
+    int32_t add(scene::CameraKind, XmlElement const& element);
+    int32_t add(scene::MaterialKind, XmlElement const& element);
+    int32_t add(scene::EmissionKind, XmlElement const& element);
+    int32_t add(scene::VolumeKind, XmlElement const& element);
+    int32_t add(scene::MediumKind, XmlElement const& element);
+    int32_t add(scene::ShapeKind, XmlElement const& element);
+    int32_t add(scene::InstanceKind, XmlElement const& element);
+    int32_t add(scene::LightKind, XmlElement const& element);
+    int32_t add(scene::SamplerKindTag, XmlElement const& element);
+    /// Scenes and images are read by whoever reads the integrator: their elements are kept.
+    int32_t add(scene::SceneKind, XmlElement const& element);
+    int32_t add(scene::ImageKind, XmlElement const& element);
+
+    /// What a type needs beyond its parameters: files, and rules between parameters.
+    template <class T>
+    void complete(T&, XmlElement const&) {}
+    void complete(scene::ImageTexture& texture, XmlElement const& element);
+    void complete(scene::ThinLens& camera, XmlElement const& element);
+    void complete(scene::MeshShape& mesh, XmlElement const& element);
+    void complete(scene::DirectionalLight& light, XmlElement const& element);
+    void complete(scene::SpotLight& light, XmlElement const& element);
+    void complete(scene::AreaLight& light, XmlElement const& element);
+
+    std::string find_file(scene::FileName const& file, XmlElement const& element) const;
+    int32_t load_image(scene::FileName const& file, bool linear, XmlElement const& element);
+
+    Document& document_;
+    scene::Scene& scene_;
+    /// Elements already in the scene, by what they were read as; -1: being read.
+    std::map<std::pair<XmlElement const*, std::string_view>, int32_t> read_;
+};
+
+} // namespace weft::io

@@ -1,0 +1,45 @@
+// The native scene format: a superset of lightwave's XML (docs/scene-format.md).
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "scene/scene.h"
+#include "schema/schema.h"
+
+namespace weft::io {
+
+/// One integrator of a file, with the scene that it renders.
+struct RenderJob {
+    scene::Integrator integrator;
+    scene::RenderTarget target;
+    scene::Sampler sampler;
+    std::shared_ptr<scene::Scene const> scene;
+    std::string image_name;              ///< the id of its <image>, of its <test>, or ""
+    std::string folder;                  ///< of the file; "" is the current one
+    std::optional<scene::ImageTest> test;
+    SourceLocation where;
+};
+
+struct SceneFile {
+    std::vector<RenderJob> jobs; ///< in file order
+    std::vector<std::string> warnings;
+};
+
+/// Reads a scene file and everything that it names. Each override "PATH.PARAM=VALUE" sets a
+/// parameter of the objects that PATH (ids or tags, outermost first) leads to, as if the file
+/// said so. A file with a scene and no integrator gives one job: `path` with its defaults.
+/// Throws InputError.
+SceneFile read_scene_file(std::string const& path, std::vector<std::string> const& overrides = {});
+
+/// As read_scene_file, for text in memory.
+SceneFile parse_scene(std::string const& text, std::string const& name, std::string const& folder,
+                      std::vector<std::string> const& overrides = {});
+
+/// The schemas of every type that a file may name, by category.
+std::vector<schema::Schema> all_schemas();
+
+} // namespace weft::io

@@ -1,0 +1,14 @@
+// `<transform>`: translate, scale, rotate, matrix and lookat, applied in the order in which they
+// stand.
+#pragma once
+
+#include "base/affine.h"
+#include "io/xml_document.h"
+
+namespace weft::io {
+
+/// The product of the element's children. Throws InputError where one is unknown or malformed,
+/// or where the result is singular (a scale of 0, `up` along the view direction, ...).
+Affined read_transform(XmlElement const& element);
+
+} // namespace weft::io

@@ -1,0 +1,76 @@
+// Lights that shine from one point or in one direction, and so are met by no ray: they need no
+// density and no MIS.
+#pragma once
+
+#include <numbers>
+
+#include "base/color.h"
+
+namespace weft::lights {
+
+struct DeltaLightSample {
+    Vec3 wi{0, 0, 1};   ///< unit, towards the light
+    float distance = 0; ///< to the light; infinite for directional lights
+    Color irradiance;   ///< on a surface facing the light, without occlusion; black at distance 0
+};
+
+/// The same intensity in all directions.
+struct PointLight {
+    Vec3 position{0, 0, 0};
+    Color intensity{1}; ///< power per solid angle
+
+    DeltaLightSample sample(Vec3 const& ref) const {
+        Vec3 const d = position - ref;
+        float const d2 = length_squared(d);
+        if (!(d2 > 0)) return {};
+        float const distance = std::sqrt(d2);
+        return {d * (1 / distance), distance, intensity * (1 / d2)};
+    }
+    Color power() const { return intensity * (4 * kPi); }
+};
+
+/// Parallel light from infinitely far away.
+struct DirectionalLight {
+    Vec3 direction{0, 1, 0}; ///< unit, towards the light
+    Color irradiance{1};     ///< on a surface facing the light
+
+    DeltaLightSample sample(Vec3 const&) const { return {direction, kInfinity, irradiance}; }
+    /// What crosses a disk of the scene's radius.
+    Color power(float scene_radius) const { return irradiance * (kPi * square(scene_radius)); }
+};
+
+/// A point light that shines into a cone: full intensity up to angle / 2 from the axis, from
+/// there falling to 0 at (angle + falloff) / 2, linearly in the angle.
+struct SpotLight {
+    Vec3 position{0, 0, 0};
+    Vec3 axis{0, 0, 1};    ///< unit, the way the light shines
+    Color intensity{1};    ///< power per solid angle on the axis
+    float angle = kPi / 4; ///< full opening angle of the bright cone, radians in [0, 2 pi]
+    float falloff = 0;     ///< how much wider the dark edge is, full angle in radians, >= 0
+
+    /// Share of the intensity that leaves along `d` (any length but 0), in [0, 1].
+    float attenuation(Vec3 const& d) const {
+        // atan2 rather than acos: narrow spots live where the cosine has no digits left.
+        float const beyond = std::atan2(length(cross(axis, d)), dot(axis, d)) - 0.5f * angle;
+        if (beyond <= 0) return 1;
+        return std::max(0.f, 1 - 2 * beyond / falloff);
+    }
+    DeltaLightSample sample(Vec3 const& ref) const {
+        DeltaLightSample s = PointLight{position, intensity}.sample(ref);
+        if (s.distance > 0) s.irradiance *= attenuation(-s.wi);
+        return s;
+    }
+    /// 2 pi I (1 - (sin b - sin a) / (b - a)) for the half angles a and b of the two cones.
+    Color power() const {
+        double const pi = std::numbers::pi;
+        double const a = std::min(0.5 * angle, pi);
+        double const b = std::max(a, std::min(0.5 * (double(angle) + falloff), pi));
+        if (b - a < 1e-6) return intensity * float(2 * pi * (1 - std::cos(a)));
+        // Where the outer cone is wider than everything, the ramp stops at pi above 0.
+        double const end = std::max(0.0, 0.5 * (double(angle) + falloff) - pi) / (0.5 * falloff);
+        double const mean_cos = (std::sin(b) - std::sin(a)) / (b - a);
+        return intensity * float(2 * pi * (1 - end * std::cos(b) - (1 - end) * mean_cos));
+    }
+};
+
+} // namespace weft::lights

@@ -1,0 +1,206 @@
+// A BSDF as a flat list of weighted lobes around one shading frame.
+//
+// Materials add lobes, `prepare` decides how often each is picked, and `sample` picks one, samples
+// it, then evaluates the *whole* list, so that value and density cannot disagree (single-sample
+// MIS with the balance heuristic, Veach 1997, 9.2.4). Delta lobes have no value that `eval` could
+// add: `sample` returns them alone, with the probability of that.
+//
+// Where shading and geometric normal disagree about which side wi is on, there is neither
+// reflection nor transmission (Veach 1997, 5.3, gives the other choice; this one leaks no light).
+#pragma once
+
+#include <cassert>
+#include <memory>
+#include <variant>
+
+#include "base/frame.h"
+#include "base/match.h"
+#include "lobes/lambert.h"
+#include "lobes/microfacet_dielectric.h"
+#include "lobes/microfacet_reflection.h"
+#include "lobes/specular_dielectric.h"
+#include "lobes/specular_reflection.h"
+
+namespace weft::lobes {
+
+/// Every kind of lobe. All are trivially copyable and destructible.
+using LobeVariant = std::variant<Lambert, SpecularReflection, SpecularDielectric, GgxReflection,
+                                 BeckmannReflection, GgxDielectric, BeckmannDielectric>;
+
+struct Lobe {
+    Color weight;   ///< multiplies the kind's value
+    float pick = 1; ///< probability that `Bsdf::sample` picks it
+    LobeVariant kind;
+};
+
+struct BsdfSample {
+    Vec3 wi{0, 0, 0};
+    Color weight;          ///< f |cos wi| / pdf
+    float pdf = 0;         ///< per solid angle, or a probability for Delta; 0 means failure
+    LobeFlags flags{};     ///< the side of wi and the kind of the lobe picked
+    float eta_scale = 1;   ///< eta^2 of the lobe picked if it transmitted, else 1
+};
+
+class Bsdf {
+  public:
+    static constexpr int capacity = 16;
+
+    Frame frame;           ///< n is on wo's side
+    Vec3 geometric_normal; ///< on wo's side
+
+    /// An empty list. The room for lobes stays uninitialised.
+    Bsdf(Frame const& shading_frame, Vec3 const& ng_facing_wo)
+        : frame(shading_frame), geometric_normal(ng_facing_wo) {}
+    Bsdf(Bsdf const& o) : Bsdf(o.frame, o.geometric_normal) { copy_lobes(o); }
+    Bsdf& operator=(Bsdf const& o) {
+        frame = o.frame;
+        geometric_normal = o.geometric_normal;
+        if (this != &o) copy_lobes(o);
+        return *this;
+    }
+
+    /// Appends an alternative of LobeVariant, or a LobeVariant; weights are >= 0. A black weight
+    /// adds nothing. False if the list is full and the lobe is lost.
+    template <class L>
+    bool add(Color const& weight, L const& kind) {
+        if (is_black(weight)) return true;
+        if (count_ == capacity) return false;
+        Lobe const& lobe = *std::construct_at(&lobes_[count_++], Lobe{weight, 1, LobeVariant(kind)});
+        LobeFlags const flags = match(lobe.kind, [](auto const& l) { return l.flags(); });
+        flags_ |= flags;
+        if (!any(flags, LobeFlags::Delta)) smooth_flags_ |= flags;
+        return true;
+    }
+
+    /// Shares out the picks by albedo as seen from `wo` (world space). Between the last `add`
+    /// and the first `sample` or `eval`; those are right, if noisier, for any other wo as well.
+    void prepare(Vec3 const& wo);
+
+    /// The sum over the smooth lobes; the density is that of `sample` choosing wi by any of them.
+    /// World space, unit directions.
+    LobeValue eval(Vec3 const& wo, Vec3 const& wi) const {
+        Vec3 const local = frame.to_local(wi);
+        if (!same_sides(wi, local)) return {};
+        return eval_local(frame.to_local(wo), local);
+    }
+
+    /// Picks a lobe by u.z, samples it by what is left of u; u in [0, 1)^3.
+    BsdfSample sample(Vec3 const& wo, Vec3 const& u) const;
+
+    /// The power scattered towards anywhere, per channel; see lobe.h. Microfacet lobes answer
+    /// from tables.
+    Color albedo(Vec3 const& wo) const {
+        Vec3 const local = frame.to_local(wo);
+        Color sum;
+        for (int i = 0; i < count_; ++i) {
+            sum += lobes_[i].weight *
+                   match(lobes_[i].kind, [&](auto const& l) { return l.albedo(local); });
+        }
+        return sum;
+    }
+
+    int size() const { return count_; }
+    Lobe const& operator[](int i) const { return lobes_[i]; }
+    LobeFlags flags() const { return flags_; } ///< the union over all lobes
+    /// Whether `eval` can be other than black, so that light sampling makes sense.
+    bool has_smooth() const { return smooth_flags_ != LobeFlags::None; }
+
+  private:
+    /// What one lobe said to `sample`, in local space.
+    struct Picked {
+        Vec3 wi;
+        float eta_scale;
+        LobeFlags flags;
+        Color delta_weight{};
+        float delta_probability = 0;
+    };
+
+    template <class L>
+    static Picked sample_lobe(L const& lobe, Vec3 const& wo, Vec3 const& u) {
+        if constexpr (DeltaLobe<L>) {
+            DeltaSample const s = lobe.sample(wo, u);
+            return {s.wi, s.eta_scale, lobe.flags(), s.weight, s.probability};
+        } else {
+            Vec3 const wi = lobe.sample(wo, u);
+            return {wi, transmission_eta_scale(lobe, wi), lobe.flags()};
+        }
+    }
+
+    bool same_sides(Vec3 const& wi, Vec3 const& local) const {
+        return dot(wi, geometric_normal) * local.z > 0;
+    }
+
+    LobeValue eval_local(Vec3 const& wo, Vec3 const& wi) const {
+        LobeFlags const side = wi.z > 0 ? LobeFlags::Reflection : LobeFlags::Transmission;
+        if (!any(smooth_flags_, side)) return {};
+        LobeValue sum;
+        for (int i = 0; i < count_; ++i) {
+            Lobe const& lobe = lobes_[i];
+            LobeValue const v = match(lobe.kind, [&](auto const& l) {
+                if constexpr (SmoothLobe<std::remove_cvref_t<decltype(l)>>) return l.eval(wo, wi);
+                return LobeValue{};
+            });
+            sum.f += lobe.weight * v.f;
+            sum.pdf += lobe.pick * v.pdf;
+        }
+        return sum;
+    }
+
+    void copy_lobes(Bsdf const& o) {
+        std::uninitialized_copy_n(o.lobes_, o.count_, lobes_);
+        count_ = o.count_;
+        flags_ = o.flags_;
+        smooth_flags_ = o.smooth_flags_;
+    }
+
+    int count_ = 0;
+    LobeFlags flags_{}, smooth_flags_{};
+    union {
+        Lobe lobes_[capacity]; ///< the first count_ are alive
+    };
+};
+
+inline void Bsdf::prepare(Vec3 const& wo) {
+    if (count_ <= 1) return;
+    // The floor keeps a lobe alive whose tabulated albedo rounds to 0.
+    constexpr float least_albedo = 1e-2f;
+    Vec3 const local = frame.to_local(wo);
+    float total = 0;
+    for (int i = 0; i < count_; ++i) {
+        Color const albedo =
+            match(lobes_[i].kind, [&](auto const& l) { return l.albedo(local); });
+        lobes_[i].pick = average(lobes_[i].weight * (albedo + Color(least_albedo)));
+        total += lobes_[i].pick;
+    }
+    for (int i = 0; i < count_; ++i) lobes_[i].pick /= total;
+}
+
+inline BsdfSample Bsdf::sample(Vec3 const& wo, Vec3 const& u) const {
+    if (count_ == 0) return {};
+    int picked = 0;
+    float rest = u.z;
+    while (picked + 1 < count_ && rest >= lobes_[picked].pick) rest -= lobes_[picked++].pick;
+    Lobe const& lobe = lobes_[picked];
+    Vec3 const u_lobe{u.x, u.y, std::min(rest / lobe.pick, kOneMinusEpsilon)};
+
+    Vec3 const wo_local = frame.to_local(wo);
+    Picked const p =
+        match(lobe.kind, [&](auto const& l) { return sample_lobe(l, wo_local, u_lobe); });
+    Vec3 const wi = frame.to_world(p.wi);
+    if (!same_sides(wi, p.wi)) return {}; // failures too: the zero vector is on no side
+
+    LobeFlags const other = p.wi.z > 0 ? LobeFlags::Transmission : LobeFlags::Reflection;
+    BsdfSample result{wi, {}, 0, p.flags & ~other, p.eta_scale};
+    if (any(p.flags, LobeFlags::Delta)) {
+        result.weight = lobe.weight * p.delta_weight * (1 / lobe.pick);
+        result.pdf = lobe.pick * p.delta_probability;
+        return result;
+    }
+    LobeValue const v = eval_local(wo_local, p.wi);
+    if (!(v.pdf > 0)) return {};
+    result.weight = v.f / v.pdf;
+    result.pdf = v.pdf;
+    return result;
+}
+
+} // namespace weft::lobes

@@ -1,0 +1,84 @@
+// What every lobe promises.
+//
+// Local frame: z is the shading normal on wo's side, so wo.z > 0 always; wi.z > 0 reflects and
+// wi.z < 0 transmits. Both directions are unit and leave the surface. `eval().f` is the BSDF times
+// |wi.z|; densities are per solid angle of wi.
+//
+// Transmission is that of *radiance*: where light crosses into a medium of another index, f
+// carries the factor 1 / eta^2 (Veach 1997, 5.2; pbrt's TransportMode::Radiance), eta being the
+// index on wi's side over the index on wo's side. Samples report `eta_scale` = eta^2 so that
+// Russian roulette can look at the path's power instead. `albedo` is a fraction of power, in
+// [0, 1]: the integral of f * eta_scale over wi.
+//
+// Lobes are white where a tint can live in the list's weight (see bsdf.h).
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+
+#include "base/color.h"
+#include "base/vec.h"
+
+namespace weft::lobes {
+
+/// Which sides a lobe scatters to, and how narrowly. A set.
+enum class LobeFlags : uint8_t {
+    None = 0,
+    Reflection = 1,
+    Transmission = 2,
+    Diffuse = 4,
+    Glossy = 8,
+    Delta = 16,
+};
+
+constexpr LobeFlags operator|(LobeFlags a, LobeFlags b) {
+    return LobeFlags(uint8_t(a) | uint8_t(b));
+}
+constexpr LobeFlags operator&(LobeFlags a, LobeFlags b) {
+    return LobeFlags(uint8_t(a) & uint8_t(b));
+}
+constexpr LobeFlags operator~(LobeFlags a) { return LobeFlags(~uint8_t(a) & 31); }
+constexpr LobeFlags& operator|=(LobeFlags& a, LobeFlags b) { return a = a | b; }
+constexpr LobeFlags& operator&=(LobeFlags& a, LobeFlags b) { return a = a & b; }
+/// Whether the sets meet.
+constexpr bool any(LobeFlags set, LobeFlags of) { return (set & of) != LobeFlags::None; }
+
+struct LobeValue {
+    Color f;       ///< BSDF times |cos wi|
+    float pdf = 0; ///< of the lobe's own sampling, per solid angle
+};
+
+struct DeltaSample {
+    Vec3 wi{0, 0, 0};
+    Color weight;          ///< f |cos wi| / probability
+    float probability = 0; ///< of this direction among the lobe's few; 0 means failure
+    float eta_scale = 1;   ///< eta^2 after transmission, else 1
+};
+
+/// A lobe with a density. `sample` takes u in [0, 1)^3 and gives the zero vector on failure
+/// (a direction the lobe cannot scatter to); the density then integrates to less than 1.
+template <class L>
+concept SmoothLobe = requires(L const& lobe, Vec3 const& v) {
+    { lobe.eval(v, v) } -> std::same_as<LobeValue>;
+    { lobe.sample(v, v) } -> std::same_as<Vec3>;
+    { lobe.albedo(v) } -> std::same_as<Color>;
+    { lobe.flags() } -> std::same_as<LobeFlags>;
+};
+
+/// A lobe that scatters into finitely many directions.
+template <class L>
+concept DeltaLobe = requires(L const& lobe, Vec3 const& v) {
+    { lobe.sample(v, v) } -> std::same_as<DeltaSample>;
+    { lobe.albedo(v) } -> std::same_as<Color>;
+    { lobe.flags() } -> std::same_as<LobeFlags>;
+};
+
+/// eta^2 where `lobe` transmits between two indices (a smooth lobe that does so has the member
+/// `eta_scale()`), else 1.
+template <SmoothLobe L>
+float transmission_eta_scale(L const& lobe, Vec3 const& wi) {
+    if constexpr (requires { lobe.eta_scale(); }) return wi.z < 0 ? lobe.eta_scale() : 1.f;
+    return 1;
+}
+
+} // namespace weft::lobes

@@ -1,0 +1,148 @@
+#include "session/render.h"
+
+#include <algorithm>
+#include <chrono>
+#include <mutex>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+#include <thread>
+
+#include "integrator/pixel_renderer.h"
+
+namespace weft::session {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// The end of the pass that starts at sample `from`: 1, 2, 4, ... so that a first picture is
+/// there soon, and then as many as keep tiles long enough not to matter.
+uint32_t pass_end(uint32_t from, uint32_t total) {
+    constexpr uint32_t longest = 64;
+    return std::min(total, from + std::clamp(from, 1u, longest));
+}
+
+/// Reports progress from whichever thread comes by first after a fifth of a second.
+class ProgressMeter {
+  public:
+    ProgressMeter(RenderOptions const& options, double total) : options_(options), total_(total) {}
+
+    void add(double pixel_samples, uint32_t samples_done) {
+        double const done = done_.fetch_add(pixel_samples) + pixel_samples;
+        if (!options_.on_progress) return;
+        std::unique_lock lock(mutex_, std::try_to_lock);
+        double const now = seconds_since(start_);
+        if (!lock || now - last_ < 0.2) return;
+        last_ = now;
+        options_.on_progress({done / total_, done / now, now, now * (total_ / done - 1), samples_done});
+    }
+    void finish(uint32_t samples) {
+        double const now = seconds();
+        if (options_.on_progress) options_.on_progress({1, done() / now, now, 0, samples});
+    }
+    double done() const { return done_.load(); }
+    double seconds() const { return seconds_since(start_); }
+
+  private:
+    RenderOptions const& options_;
+    double total_, last_ = 0;
+    std::atomic<double> done_{0};
+    std::mutex mutex_;
+    Clock::time_point start_ = Clock::now();
+};
+
+class TileRenderer {
+  public:
+    TileRenderer(integrator::PixelRenderer const& renderer, film::Film& film, RenderResult& result)
+        : renderer_(renderer), film_(film), result_(result) {}
+
+    void render(film::Region const& tile, uint32_t from, uint32_t to) {
+        for (int y = tile.from.y; y < tile.to.y; ++y)
+            for (int x = tile.from.x; x < tile.to.x; ++x) {
+                film::PixelSum sum = film_.pixel(x, y);
+                for (uint32_t s = from; s < to; ++s) sum.add(checked(renderer_.sample({x, y}, s), {x, y}, s));
+                film_.pixel(x, y) = sum;
+            }
+    }
+
+  private:
+    Color checked(Color const& c, Vec2i pixel, uint32_t sample) {
+        if (is_finite(c)) [[likely]] return c;
+        std::lock_guard lock(mutex_);
+        ++result_.bad_samples;
+        auto& list = result_.first_bad_samples;
+        list.push_back({pixel, sample, c});
+        auto key = [](BadSample const& b) { return std::tuple(b.pixel.y, b.pixel.x, b.sample); };
+        std::sort(list.begin(), list.end(), [&](auto const& a, auto const& b) { return key(a) < key(b); });
+        if (list.size() > 4) list.pop_back();
+        return Color(0);
+    }
+
+    integrator::PixelRenderer const& renderer_;
+    film::Film& film_;
+    RenderResult& result_;
+    std::mutex mutex_;
+};
+
+std::vector<film::Region> make_tiles(film::Region const& region, int size) {
+    std::vector<film::Region> tiles;
+    for (int y = region.from.y; y < region.to.y; y += size)
+        for (int x = region.from.x; x < region.to.x; x += size)
+            tiles.push_back({{x, y}, {std::min(x + size, region.to.x), std::min(y + size, region.to.y)}});
+    return tiles;
+}
+
+film::Region region_of(world::World const& world, RenderOptions const& options) {
+    Vec2i const size = world.camera().size();
+    if (!options.crop) return {{0, 0}, size};
+    film::Region const& c = *options.crop;
+    bool const inside = c.from.x >= 0 && c.from.y >= 0 && c.to.x <= size.x && c.to.y <= size.y;
+    if (!inside || c.width() <= 0 || c.height() <= 0)
+        throw InputError("--crop expects a region inside of the picture of " + std::to_string(size.x) + " x " + std::to_string(size.y) +
+                         " pixels, found " + std::to_string(c.from.x) + "," + std::to_string(c.from.y) + "," + std::to_string(c.to.x) + "," +
+                         std::to_string(c.to.y));
+    return c;
+}
+
+} // namespace
+
+int sample_count(scene::Sampler const& sampler) {
+    return match(sampler, [](auto const& s) { return s.count; });
+}
+
+RenderResult render(world::World const& world, io::RenderJob const& job, RenderOptions const& options) {
+    RenderResult result;
+    result.region = region_of(world, options);
+    result.samples = uint32_t(options.spp > 0 ? options.spp : sample_count(job.sampler));
+    integrator::PixelRenderer const renderer(world, job.integrator, job.sampler, options.seed);
+    film::Film film(result.region);
+    TileRenderer tiles(renderer, film, result);
+    auto const regions = make_tiles(result.region, options.tile_size);
+    double const pixels = double(result.region.width()) * result.region.height();
+    ProgressMeter meter(options, pixels * result.samples);
+    auto cancelled = [&] { return options.cancel && options.cancel->load(std::memory_order_relaxed); };
+
+    int const threads = options.threads > 0 ? options.threads : int(std::max(1u, std::thread::hardware_concurrency()));
+    tbb::task_arena arena(threads);
+    arena.execute([&] {
+        for (uint32_t from = 0; from < result.samples && !cancelled(); from = pass_end(from, result.samples)) {
+            uint32_t const to = pass_end(from, result.samples);
+            tbb::parallel_for(tbb::blocked_range<size_t>(0, regions.size(), 1), [&](auto const& range) {
+                for (size_t i = range.begin(); i != range.end() && !cancelled(); ++i) {
+                    tiles.render(regions[i], from, to);
+                    meter.add(double(regions[i].width()) * regions[i].height() * (to - from), from);
+                }
+            }, tbb::simple_partitioner());
+        }
+    });
+    result.cancelled = cancelled() && meter.done() < pixels * result.samples;
+    if (!result.cancelled) meter.finish(result.samples);
+    result.image = film.mean();
+    result.seconds = meter.seconds();
+    result.pixel_samples = meter.done();
+    return result;
+}
+
+} // namespace weft::session

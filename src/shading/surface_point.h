@@ -1,0 +1,28 @@
+// A point on a surface, as materials see it.
+#pragma once
+
+#include "base/vec.h"
+
+namespace weft::shading {
+
+struct SurfacePoint {
+    Vec3 p{0, 0, 0};      ///< world space
+    Vec3 p_error{0, 0, 0}; ///< how far each coordinate of p may lie from the true surface
+    Vec3 ng{0, 0, 1};     ///< unit geometric normal of the front
+    Vec3 ns{0, 0, 1};     ///< unit shading normal of the front
+    Vec3 dpdu{0, 0, 0};   ///< along growing u, any length; 0 where there are no uvs
+    Vec2 uv{0, 0};
+    float t = 0;            ///< distance from the ray's origin in units of its direction
+    uint32_t object = 0;    ///< which object of the world
+    uint32_t primitive = 0; ///< which triangle of it
+};
+
+/// A ray origin just off the surface, on the side that `direction` points to: far enough that the
+/// ray cannot meet the surface again by rounding (Pharr, Jakob and Humphreys 2016, 3.9.5). The
+/// distance follows from the coordinates' own size, so no scene is too large or too small.
+inline Vec3 offset_origin(SurfacePoint const& s, Vec3 const& direction) {
+    float const distance = dot(abs(s.ng), s.p_error);
+    return s.p + s.ng * (dot(direction, s.ng) < 0 ? -distance : distance);
+}
+
+} // namespace weft::shading

@@ -1,0 +1,113 @@
+// The half of WorldBuilder that makes lights.
+#include "world/world_builder.h"
+
+namespace weft::world {
+
+namespace {
+
+/// A rotation: the map's axes of length 1, without translation.
+Affine rotation_of(Affined const& m) {
+    return Affine(Affined(normalize(m.x), normalize(m.y), normalize(m.z), Vec3d(0)));
+}
+
+/// For each cell of a lat-long grid the largest luminance that the bilinear filter can make
+/// there, so that no light goes unsampled.
+std::vector<float> environment_cells(shading::Textures const& textures, scene::Input<Color> const& input, Vec2i size) {
+    std::vector<float> values(size_t(size.x) * size_t(size.y)), cells(values.size());
+    auto at = [&](int x, int y) -> float& { return values[size_t(y) * size_t(size.x) + size_t(x)]; };
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x) {
+            Vec2 const uv((float(x) + 0.5f) / float(size.x), (float(y) + 0.5f) / float(size.y));
+            at(x, y) = luminance(textures.at(input, uv));
+        }
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x) {
+            float sum = 0, weight = 0;
+            for (int j = std::max(y - 1, 0); j <= std::min(y + 1, size.y - 1); ++j)
+                for (int i = -1; i <= 1; ++i) {
+                    float const w = (j == y ? 2.f : 1.f) * (i == 0 ? 2.f : 1.f);
+                    sum += w * at((x + i + size.x) % size.x, j);
+                    weight += w;
+                }
+            cells[size_t(y) * size_t(size.x) + size_t(x)] = sum / weight;
+        }
+    return cells;
+}
+
+} // namespace
+
+float mean_luminance(shading::Textures const& textures, scene::Input<Color> const& input) {
+    if (!input.texture) return luminance(input.value);
+    constexpr int n = 32;
+    double sum = 0;
+    for (int i = 0; i < n * n; ++i)
+        sum += luminance(textures.at(input, {(float(i % n) + 0.5f) / n, (float(i / n) + 0.5f) / n}));
+    return float(sum / (n * n));
+}
+
+void WorldBuilder::add_area_lights(std::vector<Light>& lights, std::vector<float>& weights) {
+    for (auto const& [index, weight] : area_objects_) {
+        Object& object = world_.objects_[index];
+        auto const& emission = scene_.emissions[size_t(object.emission.index)];
+        auto make = [&]() -> lights::Emitter {
+            if (object.kind == ObjectKind::Sphere) return lights::SphereEmitter(object.to_world);
+            TriangleData const& data = world_.triangles_[size_t(object.triangles)];
+            if (data.source == rectangle_) return lights::RectangleEmitter(object.to_world);
+            std::vector<Vec3> positions(data.positions.begin(), data.positions.end() - 1);
+            if (object.instanced)
+                for (Vec3& p : positions) p = object.to_world.point(p);
+            std::vector<lights::MeshEmitter::Triangle> triangles;
+            for (auto const& t : data.source->triangles) triangles.push_back({t.v[0], t.v[1], t.v[2]});
+            return lights::MeshEmitter(std::move(positions), std::move(triangles), data.source->uvs,
+                                       object.to_world.determinant() < 0);
+        };
+        AreaLight light{make(), object.emission, index};
+        float const area = match(light.emitter, [](auto const& e) { return e.area(); });
+        object.light = int32_t(lights.size());
+        weights.push_back(weight * kPi * area * mean_luminance(world_.textures_, emission.emission));
+        lights.emplace_back(std::move(light));
+    }
+}
+
+void WorldBuilder::build_lights() {
+    RTCBounds bounds;
+    rtcGetSceneBounds(world_.embree_scene_, &bounds);
+    Vec3 const extent(bounds.upper_x - bounds.lower_x, bounds.upper_y - bounds.lower_y, bounds.upper_z - bounds.lower_z);
+    float const radius = is_finite(extent) && extent.x >= 0 ? 0.5f * length(extent) : 1;
+    float const cross_section = kPi * square(std::max(radius, 1e-6f));
+
+    std::vector<Light> lights;
+    std::vector<float> weights;
+    auto add = [&](Light light, float weight, float power) {
+        lights.push_back(std::move(light));
+        weights.push_back(weight * power);
+    };
+    for (scene::LightId id : scene_.contents.lights) {
+        std::visit(Overloaded{
+                       [&](scene::PointLight const& l) {
+                           add(lights::PointLight{l.position, l.power / (4 * kPi)}, l.weight, luminance(l.power));
+                       },
+                       [&](scene::DirectionalLight const& l) {
+                           add(lights::DirectionalLight{normalize(l.direction), l.intensity}, l.weight, cross_section * luminance(l.intensity));
+                       },
+                       [&](scene::SpotLight const& l) {
+                           lights::SpotLight spot{l.position, normalize(l.direction), l.intensity, radians(l.angle), radians(l.falloff)};
+                           add(spot, l.weight, luminance(spot.power()));
+                       },
+                       [&](scene::EnvironmentLight const& l) {
+                           Affine const to_world = rotation_of(l.transform);
+                           Vec2i const size = l.texture.texture ? world_.textures_.resolution(l.texture.texture) : Vec2i(1, 1);
+                           auto const cells = environment_cells(world_.textures_, l.texture, size);
+                           lights::EnvironmentSampler sampler(cells, uint32_t(size.x), uint32_t(size.y));
+                           float const power = cross_section * sampler.total();
+                           add(EnvironmentLight{l.texture, to_world, to_world.inverse(), std::move(sampler)}, l.weight, power);
+                       },
+                       [](scene::AreaLight const&) {},
+                   },
+                   scene_.lights[size_t(id.index)]);
+    }
+    add_area_lights(lights, weights);
+    world_.lights_ = LightTable(std::move(lights), weights, scene_.emissions, &world_.textures_);
+}
+
+} // namespace weft::world

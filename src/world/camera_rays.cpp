@@ -1,0 +1,97 @@
+#include "world/camera_rays.h"
+
+#include "base/color.h"
+#include "base/match.h"
+#include "base/warp.h"
+#include "lights/lat_long.h"
+
+namespace weft::world {
+
+namespace {
+
+/// The brightness of an aperture image as a density over the square around the lens.
+std::shared_ptr<Distribution2D const> aperture_density(image::Image const& image) {
+    std::vector<float> weights;
+    weights.reserve(size_t(image.width) * size_t(image.height));
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            bool const grey = image.channels < 3;
+            float const v = luminance({image.at(x, y, 0), image.at(x, y, grey ? 0 : 1), image.at(x, y, grey ? 0 : 2)});
+            weights.push_back(std::isfinite(v) && v > 0 ? v : 0);
+        }
+    return std::make_shared<Distribution2D const>(weights, uint32_t(image.width), uint32_t(image.height));
+}
+
+} // namespace
+
+CameraRays::CameraRays(scene::Camera const& camera, std::vector<std::shared_ptr<image::Image const>> const& images) {
+    auto set_view = [&](scene::Viewpoint const& view, scene::FovAxis axis) {
+        to_world_ = Affine(view.transform);
+        size_ = {view.width, view.height};
+        scale_is_vertical_ = axis == scene::FovAxis::y;
+    };
+    std::visit(Overloaded{
+                   [&](scene::Perspective const& c) {
+                       set_view(c.view, c.fov_axis);
+                       scale_ = std::tan(radians(c.fov) / 2);
+                   },
+                   [&](scene::ThinLens const& c) {
+                       set_view(c.view, c.fov_axis);
+                       scale_ = std::tan(radians(c.fov) / 2);
+                       lens_radius_ = c.lens_radius;
+                       focal_distance_ = c.focal_distance;
+                       blades_ = c.blades;
+                       blade_rotation_ = radians(c.blade_rotation);
+                       if (c.bokeh.resource >= 0) bokeh_ = aperture_density(*images[size_t(c.bokeh.resource)]);
+                   },
+                   [&](scene::Orthographic const& c) {
+                       set_view(c.view, c.fov_axis);
+                       projection_ = Projection::Orthographic;
+                       scale_ = c.scale;
+                   },
+                   [&](scene::EnvironmentCamera const& c) {
+                       set_view(c.view, scene::FovAxis::x);
+                       projection_ = Projection::Environment;
+                   },
+               },
+               camera);
+}
+
+Vec2 CameraRays::on_screen(Vec2 raster) const {
+    float const w = float(size_.x), h = float(size_.y);
+    float const unit = scale_ / (scale_is_vertical_ ? h : w);
+    return {(2 * raster.x - w) * unit, (2 * raster.y - h) * unit};
+}
+
+Vec2 CameraRays::on_lens(Vec2 u) const {
+    if (bokeh_) {
+        Vec2 const p = bokeh_->sample(u).p;
+        return {2 * p.x - 1, 2 * p.y - 1};
+    }
+    if (blades_ < 3) return square_to_disk(u);
+    // One of the polygon's triangles around the centre, then a point in it.
+    float const slot = u.x * float(blades_);
+    float const blade = std::floor(slot);
+    Vec2 const b = square_to_triangle({slot - blade, u.y});
+    float const from = blade_rotation_ + 2 * kPi * blade / float(blades_), to = from + 2 * kPi / float(blades_);
+    return {b.x * std::cos(from) + b.y * std::cos(to), b.x * std::sin(from) + b.y * std::sin(to)};
+}
+
+Ray CameraRays::ray(Vec2 raster, Vec2 lens, float time) const {
+    Vec3 origin(0), direction(0, 0, 1);
+    if (projection_ == Projection::Environment) {
+        direction = lights::uv_to_direction({raster.x / float(size_.x), 1 - raster.y / float(size_.y)});
+    } else if (Vec2 const s = on_screen(raster); projection_ == Projection::Orthographic) {
+        origin = {s.x, s.y, 0};
+    } else {
+        direction = {s.x, s.y, 1};
+        if (lens_radius_ > 0) {
+            Vec2 const l = on_lens(lens) * lens_radius_;
+            origin = {l.x, l.y, 0};
+            direction = direction * focal_distance_ - origin;
+        }
+    }
+    return {to_world_.point(origin), normalize(to_world_.vector(direction)), kInfinity, time};
+}
+
+} // namespace weft::world

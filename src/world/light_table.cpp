@@ -1,0 +1,72 @@
+#include "world/light_table.h"
+
+namespace weft::world {
+
+LightTable::LightTable(std::vector<Light> lights, std::span<float const> weights,
+                       std::vector<scene::LambertianEmission> emissions, shading::Textures const* textures)
+    : lights_(std::move(lights)), emissions_(std::move(emissions)), textures_(textures) {
+    if (!lights_.empty()) choice_ = lights::LightChoice(weights);
+    for (size_t i = 0; i < lights_.size(); ++i)
+        if (std::holds_alternative<EnvironmentLight>(lights_[i])) environments_.push_back(int32_t(i));
+}
+
+namespace {
+
+LightSample from_delta(lights::DeltaLightSample const& s) {
+    LightSample sample;
+    if (!(s.distance > 0)) return sample;
+    sample.wi = s.wi;
+    sample.distance = s.distance;
+    sample.radiance = s.irradiance;
+    sample.pdf = 1;
+    sample.delta = true;
+    return sample;
+}
+
+} // namespace
+
+LightSample LightTable::sample_light(lights::PointLight const& l, Vec3 const& ref, Vec2) const { return from_delta(l.sample(ref)); }
+LightSample LightTable::sample_light(lights::DirectionalLight const& l, Vec3 const& ref, Vec2) const { return from_delta(l.sample(ref)); }
+LightSample LightTable::sample_light(lights::SpotLight const& l, Vec3 const& ref, Vec2) const { return from_delta(l.sample(ref)); }
+
+LightSample LightTable::sample_light(AreaLight const& l, Vec3 const& ref, Vec2 u) const {
+    lights::EmitterSample const s = match(l.emitter, [&](auto const& e) { return e.sample(ref, u); });
+    LightSample sample;
+    if (!(s.pdf > 0) || dot(s.n, s.wi) >= 0) return sample; // nothing, or its back
+    sample.wi = s.wi;
+    sample.distance = s.distance;
+    sample.radiance = textures_->at(emissions_[size_t(l.emission.index)].emission, s.uv);
+    sample.pdf = s.pdf;
+    // As far off the light as a ray that leaves it would start.
+    Vec3 const extent = abs(s.p) + Vec3(std::sqrt(match(l.emitter, [](auto const& e) { return e.area(); })));
+    sample.p_error = 8 * std::numeric_limits<float>::epsilon() * dot(abs(s.n), extent);
+    return sample;
+}
+
+LightSample LightTable::sample_light(EnvironmentLight const& l, Vec3 const&, Vec2 u) const {
+    auto const s = l.sampler.sample(u);
+    LightSample sample;
+    sample.wi = normalize(l.to_world.vector(s.direction));
+    sample.distance = kInfinity;
+    sample.radiance = textures_->at(l.texture, s.uv);
+    sample.pdf = s.pdf;
+    return sample;
+}
+
+LightSample LightTable::sample(Vec3 const& ref, Vec3 const& n, Vec3 const& u) const {
+    auto const choice = choice_.choose(ref, n, u.z);
+    if (!(choice.probability > 0)) return {};
+    LightSample sample = match(lights_[choice.index], [&](auto const& l) { return sample_light(l, ref, {u.x, u.y}); });
+    sample.pdf *= choice.probability;
+    sample.light = int32_t(choice.index);
+    return sample;
+}
+
+float LightTable::pdf(int32_t light, Vec3 const& ref, Vec3 const& n, shading::SurfacePoint const& point) const {
+    auto const& area = std::get<AreaLight>(lights_[size_t(light)]);
+    float const choice = choice_.probability(ref, n, uint32_t(light));
+    if (choice == 0) return 0;
+    return choice * match(area.emitter, [&](auto const& e) { return e.pdf(ref, point.p, point.ng, point.primitive); });
+}
+
+} // namespace weft::world

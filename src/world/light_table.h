@@ -1,0 +1,86 @@
+// All lights of a world, and how one is chosen and sampled.
+#pragma once
+
+#include <variant>
+#include <vector>
+
+#include "base/affine.h"
+#include "lights/delta_lights.h"
+#include "lights/emitter_geometry.h"
+#include "lights/environment.h"
+#include "lights/light_choice.h"
+#include "scene/scene.h"
+#include "shading/shading.h"
+#include "shading/textures.h"
+
+namespace weft::world {
+
+/// An emissive object, sampled over its surface. One of a mirrored or flat shape emits from the
+/// front alone.
+struct AreaLight {
+    lights::Emitter emitter;
+    scene::EmissionId emission;
+    uint32_t object = 0;
+};
+
+struct EnvironmentLight {
+    scene::Input<Color> texture;
+    Affine to_world, to_map; ///< rotations; scale is ignored
+    lights::EnvironmentSampler sampler;
+};
+
+using Light = std::variant<lights::PointLight, lights::DirectionalLight, lights::SpotLight, AreaLight, EnvironmentLight>;
+
+struct LightSample {
+    Vec3 wi{0, 0, 1};
+    float distance = 0;     ///< infinite for lights at infinity
+    Color radiance;         ///< for delta lights: irradiance on a facing surface
+    float pdf = 0;          ///< per solid angle, times the chance of the light; 0 = no sample
+    bool delta = false;     ///< `pdf` is the chance of the light alone
+    float p_error = 0;      ///< how near to the light a shadow ray may go
+    int32_t light = -1;
+};
+
+class LightTable {
+  public:
+    LightTable() = default;
+    /// `weights`: one per light, its power times the user's weight.
+    LightTable(std::vector<Light> lights, std::span<float const> weights,
+               std::vector<scene::LambertianEmission> emissions, shading::Textures const* textures);
+
+    size_t size() const { return lights_.size(); }
+    /// Whether no light is ever sampled.
+    bool empty() const { return choice_.empty(); }
+    /// A light and a point on it, to illuminate `ref` with normal `n` (0 in a medium).
+    /// u.xy places the point, u.z chooses the light.
+    LightSample sample(Vec3 const& ref, Vec3 const& n, Vec3 const& u) const;
+    /// The density with which `sample` gives a point that a ray found on the light.
+    float pdf(int32_t light, Vec3 const& ref, Vec3 const& n, shading::SurfacePoint const& point) const;
+
+    /// Radiance of all environments from unit direction `d`, each with the density with which
+    /// `sample` gives that direction: calls f(light, radiance, pdf).
+    template <class F>
+    void environment(Vec3 const& ref, Vec3 const& n, Vec3 const& d, F&& f) const {
+        for (int32_t i : environments_) {
+            auto const& light = std::get<EnvironmentLight>(lights_[size_t(i)]);
+            Vec3 const local = normalize(light.to_map.vector(d));
+            Color const radiance = textures_->at(light.texture, lights::direction_to_uv(local));
+            f(i, radiance, choice_.probability(ref, n, uint32_t(i)) * light.sampler.pdf(local));
+        }
+    }
+
+  private:
+    LightSample sample_light(lights::PointLight const& l, Vec3 const& ref, Vec2 u) const;
+    LightSample sample_light(lights::DirectionalLight const& l, Vec3 const& ref, Vec2 u) const;
+    LightSample sample_light(lights::SpotLight const& l, Vec3 const& ref, Vec2 u) const;
+    LightSample sample_light(AreaLight const& l, Vec3 const& ref, Vec2 u) const;
+    LightSample sample_light(EnvironmentLight const& l, Vec3 const& ref, Vec2 u) const;
+
+    std::vector<Light> lights_;
+    std::vector<int32_t> environments_;
+    std::vector<scene::LambertianEmission> emissions_;
+    lights::LightChoice choice_;
+    shading::Textures const* textures_ = nullptr;
+};
+
+} // namespace weft::world

@@ -1,0 +1,135 @@
+// The committed scene: everything a render reads, immutable and shared by all threads.
+//
+// Geometry is a list of *objects*: one shape at one place. Groups are opened when the world is
+// made. An object whose mesh is used only once is stored in world space; meshes used several
+// times are stored once and instanced. Spheres are Embree's where their transform keeps them
+// round, and instances of the unit sphere elsewhere.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "lights/light_choice.h"
+#include "media/medium.h"
+#include "media/medium_stack.h"
+#include "scene/scene.h"
+#include "shading/shading.h"
+#include "world/embree.h"
+#include "world/camera_rays.h"
+#include "world/light_table.h"
+#include "world/ray.h"
+#include "world/ray_recorder.h"
+
+namespace weft::world {
+
+/// A triangle mesh as the render reads it, in the space of its object.
+struct TriangleData {
+    std::vector<Vec3> positions;              ///< one more than there are, for the kernel's loads
+    std::vector<Vec3> normals;                ///< unit; empty: flat
+    std::shared_ptr<scene::Mesh const> source; ///< indices and uvs
+    bool mirrored = false;                    ///< counter-clockwise is the back
+};
+
+enum class ObjectKind : uint8_t { Mesh, Sphere };
+
+struct Object {
+    ObjectKind kind = ObjectKind::Mesh;
+    bool instanced = false;            ///< hits are in the object's own space
+    bool has_alpha = false;
+    int32_t triangles = -1;            ///< index of the TriangleData
+    scene::MaterialId material;
+    scene::EmissionId emission;
+    scene::TextureId normal_map;
+    scene::Input<float> alpha{1};
+    int32_t light = -1;                ///< index of the light that samples it; -1 none
+    int32_t medium = -1;               ///< what fills it
+    int32_t priority = 0;
+    bool has_interior = false;         ///< crossing its surface changes the medium stack
+    bool is_null = false;              ///< no surface: rays pass straight on
+    Affine to_world, to_object;
+    int32_t source_instance = -1;      ///< of the scene, for messages
+};
+
+struct CommitOptions {
+    std::string isa; ///< Embree's kernels: "sse2", "avx2", "avx512"; "" is the best there is
+    Vec2i size{0, 0}; ///< of the picture, instead of the scene's; 0: the scene's
+};
+
+/// Counts for `weft info`.
+struct WorldStatistics {
+    size_t objects = 0, triangles = 0, unique_triangles = 0, lights = 0, memory_bytes = 0;
+};
+
+class World {
+  public:
+    /// Throws InputError where the scene cannot be rendered (no camera).
+    static std::unique_ptr<World const> commit(std::shared_ptr<scene::Scene const> scene,
+                                               CommitOptions const& options = {});
+    ~World();
+    World(World const&) = delete;
+    World& operator=(World const&) = delete;
+
+    /// The closest hit in (0, t_max). Surfaces of partial opacity are met with that probability,
+    /// decided by `alpha_seed` alone.
+    Hit intersect(Ray const& ray, uint32_t alpha_seed = 0) const;
+    /// The part of light that gets through the surfaces along the ray up to t_max: 0 behind an
+    /// opaque surface, the product of (1 - opacity) elsewhere. Null boundaries are not seen.
+    float visibility(Ray const& ray) const;
+
+    shading::SurfacePoint surface(Ray const& ray, Hit const& hit) const;
+    /// Emission and lobes at `point` towards unit `wo`.
+    shading::Shading shade(shading::SurfacePoint const& point, Vec3 const& wo,
+                           media::MediumStack const& stack) const;
+    /// Emission alone, towards `wo`.
+    Color emission(shading::SurfacePoint const& point, Vec3 const& wo) const;
+
+    Object const& object(uint32_t index) const { return objects_[index]; }
+    media::Interior interior(uint32_t object, Vec2 uv) const;
+    media::Medium const& medium(int32_t index) const { return media_[size_t(index)]; }
+    /// What surrounds the camera.
+    media::MediumStack outside() const { return outside_; }
+    /// Whether straight lines may cross media or null boundaries.
+    bool has_media() const { return has_media_; }
+    /// Whether any surface is partly transparent.
+    bool has_alpha() const { return has_alpha_; }
+
+    CameraRays const& camera() const { return camera_; }
+    LightTable const& lights() const { return lights_; }
+    shading::Textures const& textures() const { return textures_; }
+    scene::Scene const& scene() const { return *scene_; }
+    WorldStatistics const& statistics() const { return statistics_; }
+    RTCScene embree_scene() const { return embree_scene_; }
+    /// Records every ray into `recorder` (null: none), for measuring the kernel alone.
+    void record_rays(RayRecorder* recorder) const { recorder_ = recorder; }
+
+    /// Opacity at a hit whose geometric normal, as the kernel has it, is `ng`.
+    float opacity(Hit const& hit, Vec3 const& ng) const;
+
+  private:
+    friend class WorldBuilder;
+    World() = default;
+
+    void mesh_point(Object const& object, Hit const& hit, shading::SurfacePoint& point) const;
+    void sphere_point(Object const& object, Ray const& ray, Hit const& hit, shading::SurfacePoint& point) const;
+    Vec2 mesh_uv(Object const& object, Hit const& hit) const;
+    void apply_normal_map(Object const& object, shading::SurfacePoint& point) const;
+
+    std::shared_ptr<scene::Scene const> scene_;
+    std::vector<Object> objects_;
+    std::vector<TriangleData> triangles_;
+    std::vector<media::Medium> media_;
+    shading::Textures textures_;
+    LightTable lights_;
+    CameraRays camera_;
+    media::MediumStack outside_;
+    WorldStatistics statistics_;
+    bool has_media_ = false;
+    bool has_alpha_ = false;
+    RTCDevice device_ = nullptr;
+    RTCScene embree_scene_ = nullptr;
+    std::vector<RTCScene> instanced_scenes_;
+    mutable RayRecorder* recorder_ = nullptr;
+};
+
+} // namespace weft::world

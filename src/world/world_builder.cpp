@@ -1,0 +1,199 @@
+#include "world/world_builder.h"
+
+#include <numeric>
+
+namespace weft::world {
+
+namespace {
+
+/// A mesh of fewer triangles is copied wherever it stands: a level of instancing costs more.
+constexpr size_t kInstancingThreshold = 64;
+
+std::shared_ptr<scene::Mesh const> make_rectangle() {
+    scene::Mesh mesh;
+    mesh.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    mesh.triangles = {{{0, 1, 2}}, {{0, 2, 3}}};
+    return std::make_shared<scene::Mesh const>(std::move(mesh));
+}
+
+bool keeps_round(Affined const& m) {
+    double const a = length(m.x), b = length(m.y), c = length(m.z), least = 1e-6 * a;
+    return std::abs(a - b) < least && std::abs(a - c) < least && std::abs(dot(m.x, m.y)) < least * a &&
+           std::abs(dot(m.y, m.z)) < least * a && std::abs(dot(m.z, m.x)) < least * a;
+}
+
+} // namespace
+
+std::unique_ptr<World const> World::commit(std::shared_ptr<scene::Scene const> scene, CommitOptions const& options) {
+    std::unique_ptr<World> world(new World);
+    world->scene_ = scene;
+    WorldBuilder(*world, *scene).build(options);
+    return world;
+}
+
+void WorldBuilder::build(CommitOptions const& options) {
+    world_.textures_ = shading::Textures(scene_.textures, scene_.images);
+    auto const& camera = scene_.cameras[size_t(scene_.contents.camera.index)];
+    world_.camera_ = CameraRays(camera, scene_.images);
+    if (options.size.x > 0) world_.camera_.resize(options.size);
+    rectangle_ = make_rectangle();
+    collect_instances();
+    build_kernel_scene(options);
+    build_lights();
+    media::Interior space;
+    if (scene_.contents.medium) {
+        auto const& m = scene_.media[size_t(scene_.contents.medium.index)];
+        space.medium = add_medium({m.absorption, m.scatter, m.phase});
+    }
+    world_.outside_ = media::MediumStack(space);
+    count();
+}
+
+void WorldBuilder::collect_instances() {
+    std::vector<int32_t> roots;
+    for (scene::InstanceId id : scene_.contents.instances) roots.push_back(id.index);
+    std::map<int32_t, float> area_weights;
+    for (scene::LightId id : scene_.contents.lights) {
+        auto const* area = std::get_if<scene::AreaLight>(&scene_.lights[size_t(id.index)]);
+        if (!area) continue;
+        area_weights[area->instance.index] = area->weight;
+        // An instance that the scene lists as well is not there twice.
+        if (std::find(roots.begin(), roots.end(), area->instance.index) == roots.end())
+            roots.push_back(area->instance.index);
+    }
+    // How often is each mesh used? Groups count their members for every instance of the group.
+    std::vector<int32_t> open = roots;
+    while (!open.empty()) {
+        scene::Instance const& instance = scene_.instances[size_t(open.back())];
+        open.pop_back();
+        scene::Shape const& shape = scene_.shapes[size_t(instance.shape.index)];
+        if (auto const* mesh = std::get_if<scene::MeshShape>(&shape)) ++mesh_uses_[mesh->filename.resource];
+        if (auto const* group = std::get_if<scene::Group>(&shape))
+            for (scene::InstanceId id : group->instances) open.push_back(id.index);
+    }
+    for (int32_t root : roots) {
+        size_t const first = world_.objects_.size();
+        add_instance(root, {});
+        if (auto const it = area_weights.find(root); it != area_weights.end())
+            for (size_t i = first; i < world_.objects_.size(); ++i)
+                if (world_.objects_[i].emission) area_objects_.emplace_back(uint32_t(i), it->second);
+    }
+}
+
+void WorldBuilder::add_instance(int32_t index, Inherited const& outer) {
+    scene::Instance const& instance = scene_.instances[size_t(index)];
+    scene::Shape const& shape = scene_.shapes[size_t(instance.shape.index)];
+    auto pick = [](auto const& from_outer, auto const& own) { return from_outer ? from_outer : own; };
+    Inherited given;
+    given.transform = outer.transform * instance.transform;
+    given.material = pick(outer.material, instance.bsdf);
+    given.emission = pick(outer.emission, instance.emission);
+    given.normal_map = pick(outer.normal_map, instance.normal);
+    given.volume = pick(outer.volume, instance.volume);
+    given.medium = pick(outer.medium, instance.medium);
+    given.alpha = outer.alpha != scene::Input<float>{1} ? outer.alpha : instance.alpha;
+    given.priority = outer.priority != 0 ? outer.priority : instance.priority;
+    if (auto const* group = std::get_if<scene::Group>(&shape)) {
+        for (scene::InstanceId member : group->instances) add_instance(member.index, given);
+    } else {
+        add_object(shape, index, given);
+    }
+}
+
+void WorldBuilder::add_object(scene::Shape const& shape, int32_t instance, Inherited const& given) {
+    Object object;
+    object.material = given.material;
+    object.emission = given.emission;
+    object.normal_map = given.normal_map;
+    object.alpha = given.alpha;
+    object.has_alpha = given.alpha != scene::Input<float>{1};
+    object.priority = given.priority;
+    object.source_instance = instance;
+    object.medium = medium_of(given);
+    if (given.material) {
+        auto const& material = scene_.materials[size_t(given.material.index)];
+        object.is_null = shading::is_null_boundary(material);
+        object.has_interior = shading::is_transmissive(material);
+    }
+    // A medium without a surface material is bounded by nothing.
+    if (!given.material && object.medium >= 0) object.is_null = object.has_interior = true;
+    world_.has_alpha_ |= object.has_alpha;
+    world_.has_media_ |= object.is_null || object.medium >= 0;
+
+    object.to_world = Affine(given.transform);
+    object.to_object = Affine(given.transform.inverse());
+    if (std::holds_alternative<scene::Sphere>(shape)) {
+        object.kind = ObjectKind::Sphere;
+        object.instanced = !keeps_round(given.transform);
+    } else if (auto const* mesh = std::get_if<scene::MeshShape>(&shape)) {
+        int32_t const file = mesh->filename.resource;
+        auto const& data = scene_.meshes[size_t(file)];
+        object.instanced = mesh_uses_[file] > 1 && data->triangles.size() > kInstancingThreshold;
+        object.triangles = object.instanced ? shared_triangles(file, mesh->smooth)
+                                            : baked_triangles(data, mesh->smooth, given.transform);
+    } else {
+        object.triangles = baked_triangles(rectangle_, false, given.transform);
+    }
+    world_.objects_.push_back(std::move(object));
+}
+
+int32_t WorldBuilder::add_medium(media::Medium const& medium) {
+    world_.media_.push_back(medium);
+    world_.has_media_ = true;
+    return int32_t(world_.media_.size()) - 1;
+}
+
+int32_t WorldBuilder::medium_of(Inherited const& given) {
+    if (given.medium) {
+        auto const& m = scene_.media[size_t(given.medium.index)];
+        return add_medium({m.absorption, m.scatter, m.phase});
+    }
+    if (!given.material) return -1;
+    auto const* v = std::get_if<scene::VolumeBoundary>(&scene_.materials[size_t(given.material.index)]);
+    if (!v) return -1;
+    float const density = given.volume ? scene_.volumes[size_t(given.volume.index)].value : 1;
+    // What a scattering event takes away by its colour is absorbed.
+    Color const scattering = density * v->scatter * v->base_color;
+    return add_medium({density * (v->absorption + v->scatter) - scattering, scattering, v->phase});
+}
+
+int32_t WorldBuilder::shared_triangles(int32_t mesh, bool smooth) {
+    auto const [it, fresh] = shared_.emplace(std::pair(mesh, smooth), -1);
+    if (fresh) it->second = baked_triangles(scene_.meshes[size_t(mesh)], smooth, Affined());
+    return it->second;
+}
+
+int32_t WorldBuilder::baked_triangles(std::shared_ptr<scene::Mesh const> mesh, bool smooth, Affined const& transform) {
+    TriangleData data;
+    data.mirrored = transform.determinant() < 0;
+    data.positions.reserve(mesh->positions.size() + 1);
+    for (Vec3 const& p : mesh->positions) data.positions.push_back(Vec3(transform.point(Vec3d(p))));
+    data.positions.emplace_back(0.f);
+    if (smooth && !mesh->normals.empty()) {
+        Affined const inverse = transform.inverse();
+        data.normals.reserve(mesh->normals.size());
+        for (Vec3 const& n : mesh->normals) data.normals.push_back(Vec3(normalize(inverse.transposed(Vec3d(n)))));
+    }
+    data.source = std::move(mesh);
+    world_.triangles_.push_back(std::move(data));
+    return int32_t(world_.triangles_.size()) - 1;
+}
+
+void WorldBuilder::count() {
+    WorldStatistics& s = world_.statistics_;
+    s.objects = world_.objects_.size();
+    s.lights = world_.lights_.size();
+    std::set<image::Image const*> images;
+    for (auto const& image : scene_.images) images.insert(image.get());
+    for (auto const* image : images) s.memory_bytes += image->pixels.size() * sizeof(float);
+    for (TriangleData const& t : world_.triangles_) {
+        s.unique_triangles += t.source->triangles.size();
+        s.memory_bytes += (t.positions.size() + t.normals.size()) * sizeof(Vec3);
+        s.memory_bytes += t.source->triangles.size() * 12 + t.source->uvs.size() * sizeof(Vec2);
+    }
+    for (Object const& o : world_.objects_)
+        if (o.triangles >= 0) s.triangles += world_.triangles_[size_t(o.triangles)].source->triangles.size();
+}
+
+} // namespace weft::world

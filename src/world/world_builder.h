@@ -1,0 +1,64 @@
+// Makes a World out of a Scene: opens groups, stores geometry, builds the kernel's scenes and
+// the lights.
+#pragma once
+
+#include <map>
+#include <set>
+
+#include "world/world.h"
+
+namespace weft::world {
+
+class WorldBuilder {
+  public:
+    WorldBuilder(World& world, scene::Scene const& scene) : world_(world), scene_(scene) {}
+    void build(CommitOptions const& options);
+
+  private:
+    /// What an instance hands down to the members of a group.
+    struct Inherited {
+        Affined transform;
+        scene::MaterialId material;
+        scene::EmissionId emission;
+        scene::TextureId normal_map;
+        scene::VolumeId volume;
+        scene::MediumId medium;
+        scene::Input<float> alpha{1};
+        int priority = 0;
+        int light = -1;
+    };
+
+    void collect_instances();
+    void add_instance(int32_t index, Inherited const& outer);
+    void add_object(scene::Shape const& shape, int32_t instance, Inherited const& given);
+    int32_t add_medium(media::Medium const& medium);
+    int32_t medium_of(Inherited const& given);
+
+    int32_t shared_triangles(int32_t mesh, bool smooth);
+    int32_t baked_triangles(std::shared_ptr<scene::Mesh const> mesh, bool smooth, Affined const& transform);
+
+    void build_kernel_scene(CommitOptions const& options);
+    RTCGeometry make_mesh(TriangleData const& triangles) const;
+    RTCGeometry make_sphere(Vec3 const& centre, float radius) const;
+    RTCScene instanced_scene(Object const& object);
+    void attach(RTCScene to, RTCGeometry geometry, uint32_t id, bool filtered);
+
+    void build_lights();
+    void add_area_lights(std::vector<Light>& lights, std::vector<float>& weights);
+    void count();
+
+    World& world_;
+    scene::Scene const& scene_;
+    std::map<int32_t, int> mesh_uses_;                           ///< objects per mesh
+    std::map<std::pair<int32_t, bool>, int32_t> shared_;         ///< mesh, smooth -> triangles
+    std::map<int32_t, RTCScene> mesh_scenes_;                    ///< triangles -> kernel scene
+    RTCScene sphere_scene_ = nullptr;
+    std::vector<std::pair<uint32_t, float>> area_objects_;       ///< object, user weight
+    std::shared_ptr<scene::Mesh const> rectangle_;
+    std::set<int32_t> area_instances_;
+};
+
+/// Radiance of a texture averaged over its square, for judging a light's power.
+float mean_luminance(shading::Textures const& textures, scene::Input<Color> const& input);
+
+} // namespace weft::world

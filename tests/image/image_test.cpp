@@ -1,0 +1,306 @@
+// Files written and read again, files that are damaged, and writes that fail half way.
+#include "base/color.h"
+#include "base/hash.h"
+#include "image/image.h"
+#include "image/write.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <csignal>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+using namespace weft;
+using namespace weft::image;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A folder of its own for each test, removed at its end.
+class ImageFiles : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        auto const* const test = ::testing::UnitTest::GetInstance()->current_test_info();
+        folder_ = fs::temp_directory_path() /
+                  ("weft_image_" + std::string(test->name()) + std::to_string(::getpid()));
+        fs::create_directories(folder_);
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+    std::string path(std::string const& name) const { return (folder_ / name).string(); }
+    size_t count_files() const {
+        return size_t(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+    }
+
+    fs::path folder_;
+};
+
+std::string read_bytes(std::string const& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void write_bytes(std::string const& path, std::string const& bytes) {
+    std::ofstream(path, std::ios::binary).write(bytes.data(), std::streamsize(bytes.size()));
+}
+
+Image noise(int width, int height, int channels) {
+    Image image = make_image(width, height, channels);
+    Rng rng(7);
+    for (float& x : image.pixels) x = rng.next();
+    return image;
+}
+
+/// A ramp that is smooth once encoded, which JPEG keeps well.
+Image ramp(int width, int height) {
+    Image image = make_image(width, height, 3);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            for (int c = 0; c < 3; ++c)
+                image.at(x, y, c) =
+                    srgb_to_linear(float(x + y + 8 * c) / float(width + height + 16));
+    return image;
+}
+
+std::string input_error(std::string const& path) {
+    try {
+        read_image(path);
+    } catch (InputError const& e) {
+        return e.what();
+    }
+    return "no error";
+}
+
+TEST_F(ImageFiles, ExrKeepsEveryBitOfAFloat) {
+    for (int channels : {1, 2, 3, 4}) {
+        Image image = noise(37, 101, channels);
+        image.pixels[0] = std::numeric_limits<float>::quiet_NaN();
+        image.pixels[1] = kInfinity;
+        image.pixels[2] = -1e-40f;
+        image.pixels[3] = 3e38f;
+        write_exr(path("a.exr"), image);
+        Image const back = read_image(path("a.exr"));
+        ASSERT_EQ(back.width, 37);
+        ASSERT_EQ(back.height, 101);
+        ASSERT_EQ(back.channels, channels);
+        EXPECT_FALSE(back.is_srgb_encoded);
+        for (size_t i = 0; i < image.pixels.size(); ++i)
+            ASSERT_EQ(std::bit_cast<uint32_t>(image.pixels[i]),
+                      std::bit_cast<uint32_t>(back.pixels[i]))
+                << i;
+    }
+}
+
+TEST_F(ImageFiles, ExrHalfRoundsToElevenBits) {
+    Image const image = noise(16, 16, 3);
+    write_exr(path("a.exr"), image, {}, Precision::half);
+    Image const back = read_image(path("a.exr"));
+    for (size_t i = 0; i < image.pixels.size(); ++i)
+        EXPECT_NEAR(back.pixels[i], image.pixels[i], image.pixels[i] * 0x1p-11f + 0x1p-25f);
+}
+
+TEST_F(ImageFiles, ExrLayersComeFromAnywhereInMemory) {
+    Image const beauty = noise(70, 130, 3);
+    std::vector<float> depth(70 * 130);
+    for (size_t i = 0; i < depth.size(); ++i) depth[i] = float(i);
+    std::vector<Channel> const channels{{"R", beauty.pixels.data(), 3},
+                                        {"G", beauty.pixels.data() + 1, 3},
+                                        {"B", beauty.pixels.data() + 2, 3},
+                                        {"direct.R", beauty.pixels.data() + 2, 3},
+                                        {"Z", depth.data(), 1}};
+    write_exr(path("a.exr"), 70, 130, channels);
+    Image const back = read_image(path("a.exr"));
+    ASSERT_EQ(back.channels, 5);
+    for (int c = 0; c < 5; ++c) {
+        std::string const& name = back.names[size_t(c)];
+        for (int y = 0; y < 130; ++y)
+            for (int x = 0; x < 70; ++x) {
+                float const expected = name == "Z"          ? depth[size_t(y * 70 + x)]
+                                       : name == "R"        ? beauty.at(x, y, 0)
+                                       : name == "G"        ? beauty.at(x, y, 1)
+                                       : name == "B"        ? beauty.at(x, y, 2)
+                                       : name == "direct.R" ? beauty.at(x, y, 2)
+                                                            : -1;
+                ASSERT_EQ(back.at(x, y, c), expected) << name;
+            }
+    }
+    // An image read with names is written with them.
+    write_exr(path("b.exr"), back);
+    EXPECT_EQ(read_image(path("b.exr")).names, back.names);
+}
+
+TEST_F(ImageFiles, MoreThanFourChannelsMustBeNamed) {
+    EXPECT_THROW(write_exr(path("a.exr"), noise(4, 4, 5)), InputError);
+    EXPECT_EQ(count_files(), 0u);
+}
+
+TEST_F(ImageFiles, MetadataComesBack) {
+    Metadata const metadata{{"weft:scene", "bunny.xml"}, {"weft:samples", "64"}};
+    for (char const* name : {"a.exr", "a.png"}) {
+        write_image(path(name), noise(8, 8, 3), metadata);
+        Metadata const back = read_metadata(path(name));
+        for (auto const& [key, value] : metadata) {
+            ASSERT_TRUE(back.count(key)) << name << " " << key;
+            EXPECT_EQ(back.at(key), value);
+        }
+    }
+}
+
+TEST_F(ImageFiles, EqualInputGivesEqualBytes) {
+    for (std::string e : {".exr", ".hdr", ".png", ".jpg", ".tif"})
+        write_image(path("a" + e), ramp(40, 30));
+    ::usleep(1100000); // dates count in seconds
+    for (std::string e : {".exr", ".hdr", ".png", ".jpg", ".tif"}) {
+        write_image(path("b" + e), ramp(40, 30));
+        EXPECT_TRUE(read_bytes(path("a" + e)) == read_bytes(path("b" + e))) << e;
+    }
+}
+
+TEST_F(ImageFiles, PngIsEncodedClippedAndRounded) {
+    Image image = make_image(5, 1, 1);
+    image.pixels = {-1, 0.5f, 2, std::numeric_limits<float>::quiet_NaN(), 0.001f};
+    write_png(path("a.png"), image);
+    Image const back = read_image(path("a.png"));
+    EXPECT_TRUE(back.is_srgb_encoded);
+    // 0.5 encodes to 187.516, and 0.001 to 12.92 * 0.255 = 3.29.
+    std::vector<float> const expected{0, 188 / 255.f, 1, 0, 3 / 255.f};
+    for (size_t i = 0; i < 5; ++i) EXPECT_NEAR(back.pixels[i], expected[i], 1e-6f) << i;
+}
+
+TEST_F(ImageFiles, PngHoldsColoursNotPremultiplied) {
+    Image image = make_image(3, 1, 4);
+    image.pixels = {0.25f, 0.5f, 0, 0.5f, 0, 0, 0, 0, 1, 1, 1, 1};
+    for (char const* name : {"a.png", "a.tif"}) {
+        write_image(path(name), image);
+        Image const back = read_image(path(name));
+        ASSERT_EQ(back.channels, 4);
+        std::vector<float> const expected{188 / 255.f, 1, 0, 128 / 255.f, 0, 0, 0, 0, 1, 1, 1, 1};
+        for (size_t i = 0; i < 12; ++i)
+            EXPECT_NEAR(back.pixels[i], expected[i], 1e-6f) << name << " " << i;
+    }
+}
+
+TEST_F(ImageFiles, DisplayFormatsComeBackWithinTheirPrecision) {
+    Image const image = ramp(64, 48);
+    struct Case {
+        char const* name;
+        float tolerance; ///< of the encoded number
+    };
+    for (Case const& c :
+         {Case{"a.png", 0.501f / 255}, Case{"a.tiff", 0.501f / 255}, Case{"a.jpg", 6.f / 255}}) {
+        write_image(path(c.name), image);
+        Image const back = read_image(path(c.name));
+        ASSERT_EQ(back.channels, 3) << c.name;
+        EXPECT_TRUE(back.is_srgb_encoded) << c.name;
+        for (size_t i = 0; i < image.pixels.size(); ++i)
+            ASSERT_NEAR(back.pixels[i], linear_to_srgb(image.pixels[i]), c.tolerance) << c.name;
+    }
+}
+
+TEST_F(ImageFiles, HdrSharesAnExponent) {
+    Image image = ramp(64, 48);
+    for (float& x : image.pixels) x *= 1000;
+    write_image(path("a.hdr"), image);
+    Image const back = read_image(path("a.hdr"));
+    EXPECT_FALSE(back.is_srgb_encoded);
+    for (int y = 0; y < 48; ++y)
+        for (int x = 0; x < 64; ++x) {
+            float const most = std::max({image.at(x, y, 0), image.at(x, y, 1), image.at(x, y, 2)});
+            for (int c = 0; c < 3; ++c)
+                ASSERT_NEAR(back.at(x, y, c), image.at(x, y, c), most / 127) << x << " " << y;
+        }
+}
+
+TEST_F(ImageFiles, DamagedFilesAreRefused) {
+    for (std::string e : {".exr", ".hdr", ".png", ".jpg", ".tif"}) {
+        write_image(path("whole" + e), noise(64, 64, 3));
+        std::string const bytes = read_bytes(path("whole" + e));
+        for (double part : {0.9, 0.5, 0.2}) {
+            write_bytes(path("part" + e), bytes.substr(0, size_t(double(bytes.size()) * part)));
+            std::string const message = input_error(path("part" + e));
+            EXPECT_NE(message.find("part" + e + ": "), std::string::npos) << message;
+            EXPECT_NE(message.find("expected"), std::string::npos) << e << part << message;
+            EXPECT_NE(message.find("found"), std::string::npos) << e << part << message;
+        }
+        write_bytes(path("empty" + e), "");
+        EXPECT_NE(input_error(path("empty" + e)).find("expected"), std::string::npos) << e;
+        write_bytes(path("text" + e), "This is not an image, whatever its name says.\n");
+        EXPECT_NE(input_error(path("text" + e)).find("expected"), std::string::npos) << e;
+    }
+    EXPECT_EQ(input_error(path("none.png")),
+              path("none.png") + ": cannot open the image: No such file or directory");
+}
+
+TEST_F(ImageFiles, AFailedWriteLeavesTheOldFile) {
+    // A limit on the size of files stands in for a full disk. The signal that comes with it is
+    // ignored, as it is where a disk is full.
+    auto const previous = std::signal(SIGXFSZ, SIG_IGN);
+    rlimit old_limit{};
+    ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &old_limit), 0);
+    for (std::string e : {".exr", ".hdr", ".png", ".jpg", ".tif"}) {
+        std::string const file = path("a" + e);
+        write_image(file, ramp(16, 16));
+        std::string const before = read_bytes(file);
+        for (rlim_t limit : {rlim_t(0), rlim_t(1000), rlim_t(20000)}) {
+            rlimit tight = old_limit;
+            tight.rlim_cur = limit;
+            ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &tight), 0);
+            EXPECT_THROW(write_image(file, noise(256, 256, 3)), IoError) << e << " " << limit;
+            ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &old_limit), 0);
+            EXPECT_TRUE(read_bytes(file) == before) << e;
+            EXPECT_EQ(count_files(), 1u) << e;
+        }
+        // The last byte counts too: it is written while the file is closed.
+        write_image(file, noise(64, 64, 3));
+        rlimit tight = old_limit;
+        tight.rlim_cur = fs::file_size(file) - 1;
+        write_image(file, ramp(16, 16));
+        ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &tight), 0);
+        EXPECT_THROW(write_image(file, noise(64, 64, 3)), IoError) << e;
+        ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &old_limit), 0);
+        EXPECT_TRUE(read_bytes(file) == before) << e;
+        fs::remove(file);
+    }
+    std::signal(SIGXFSZ, previous);
+}
+
+TEST_F(ImageFiles, AWriteKeepsThePermissionsOfTheOldFile) {
+    write_image(path("a.exr"), ramp(4, 4));
+    fs::permissions(path("a.exr"), fs::perms(0640));
+    write_image(path("a.exr"), ramp(8, 8));
+    EXPECT_EQ(fs::status(path("a.exr")).permissions(), fs::perms(0640));
+    EXPECT_EQ(read_image(path("a.exr")).width, 8);
+    EXPECT_EQ(count_files(), 1u);
+}
+
+TEST_F(ImageFiles, CheckWritableTellsWhyNot) {
+    auto message = [](std::string const& file) -> std::string {
+        try {
+            check_writable(file);
+        } catch (InputError const& e) {
+            return e.what();
+        }
+        return "";
+    };
+    EXPECT_EQ(message(path("a.exr")), "");
+    EXPECT_EQ(count_files(), 0u);
+    EXPECT_EQ(message(path("none/a.exr")),
+              path("none/a.exr") + ": cannot make a file in its folder: No such file or directory");
+    EXPECT_EQ(message(path("a.gif")),
+              path("a.gif") + ": expected an image file's extension (.exr, .hdr, .png, .jpg, "
+                              ".tiff), found '.gif'");
+    fs::create_directory(path("b.png"));
+    EXPECT_EQ(message(path("b.png")), path("b.png") + ": expected a file to write, found a folder");
+    EXPECT_THROW(write_image(path("b.png"), ramp(4, 4)), IoError);
+    EXPECT_EQ(count_files(), 1u);
+    EXPECT_THROW(write_png(path("a.exr"), ramp(4, 4)), InputError);
+}
+
+} // namespace

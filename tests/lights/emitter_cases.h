@@ -1,0 +1,100 @@
+// The emitters and reference points over which the emitter tests run. Rectangles thinner or more
+// grazing than the bins resolve are held to exact solid angles in closed_forms_test.cpp.
+#pragma once
+
+#include "base/match.h"
+#include "tests/lights/emitter_checks.h"
+
+namespace weft::lights::testing {
+
+inline Affine rotation(Vec3 axis, float angle) {
+    axis = normalize(axis);
+    float const c = std::cos(angle), s = std::sin(angle);
+    auto const turn = [&](Vec3 v) {
+        return v * c + cross(axis, v) * s + axis * (dot(axis, v) * (1 - c));
+    };
+    return {turn({1, 0, 0}), turn({0, 1, 0}), turn({0, 0, 1}), Vec3(0)};
+}
+inline Affine scaling(float x, float y, float z) {
+    return {{x, 0, 0}, {0, y, 0}, {0, 0, z}, {0, 0, 0}};
+}
+inline Affine at(Vec3 const& p, Affine a) {
+    a.origin = p;
+    return a;
+}
+
+/// The six faces of the cube [-1, 1]^3, triangles counter-clockwise from outside, transformed.
+inline void cube(Affine const& m, std::vector<Vec3>& positions,
+                 std::vector<MeshEmitter::Triangle>& triangles) {
+    for (int i = 0; i < 8; ++i)
+        positions.push_back(m.point({i & 1 ? 1.f : -1.f, i & 2 ? 1.f : -1.f, i & 4 ? 1.f : -1.f}));
+    triangles = {{0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}, {0, 1, 5}, {0, 5, 4},
+                 {2, 6, 7}, {2, 7, 3}, {0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}};
+}
+
+inline std::vector<Case> emitter_cases() {
+    std::vector<Case> cases;
+    auto const extent = [](Affine const& a) { // of the image of [-1, 1]^3
+        return double(length(a.x) + length(a.y) + length(a.z));
+    };
+    auto const rectangle = [&](char const* name, Affine const& a, Vec3 const& ref) {
+        double const r = double(length(a.x) + length(a.y));
+        cases.push_back({name, RectangleEmitter(a), rectangle_hits(a), ref, r});
+    };
+    auto const sphere = [&](char const* name, Affine const& a, Vec3 const& ref, double r) {
+        cases.push_back({name, SphereEmitter(a), sphere_hits(a), ref, r});
+    };
+    auto const box = [&](char const* name, Affine const& a, Vec3 const& ref) {
+        std::vector<Vec3> p;
+        std::vector<MeshEmitter::Triangle> t;
+        cube(a, p, t);
+        bool const flip = a.determinant() < 0;
+        cases.push_back({name, MeshEmitter(p, t, {}, flip), mesh_hits(p, t, flip), ref, extent(a)});
+    };
+    Affine const turned = at({0.3f, -0.2f, 0.5f}, rotation({1, 2, 3}, 1.1f));
+    Affine const slab = turned * scaling(1.5f, 0.4f, 2);
+    Affine const mirror = turned * scaling(-1, 0.7f, 1);
+    Affine const shear({1, 0.2f, 0}, {0.7f, 0.9f, 0.1f}, {0.2f, -0.3f, 1.1f}, {0.1f, 0.2f, 0.3f});
+    Affine const mirror_shear = shear * scaling(1, 1, -1);
+    Vec3 const side{1.2f, -0.8f, 2.1f};
+
+    rectangle("rectangle", Affine(), {0.3f, 0.2f, 1.5f});
+    rectangle("rectangle behind", Affine(), {0.3f, 0.2f, -1.5f});
+    rectangle("rectangle turned", slab, side);
+    rectangle("rectangle mirrored", mirror, side);
+    rectangle("rectangle near", slab, slab.point({0.2f, -0.6f, 5e-4f}));
+    rectangle("rectangle grazing", slab, slab.point({2.5f, 0.3f, 0.05f}));
+    rectangle("rectangle far", slab, side * 200.f);
+    rectangle("rectangle very far", slab, side * 1e5f);
+    rectangle("tube light", scaling(1, 0.02f, 1), {0.5f, 0.4f, 0.8f});
+    rectangle("parallelogram", shear, side);
+    rectangle("parallelogram mirrored", mirror_shear, {-1, 0.6f, -1.4f});
+    rectangle("parallelogram near", shear, shear.point({0.4f, 0.1f, 0.05f}));
+    rectangle("parallelogram grazing", shear, shear.point({2.5f, 0.1f, 0.05f}));
+    rectangle("parallelogram far", shear, side * 1e5f);
+
+    sphere("sphere", Affine(), side, 1);
+    sphere("sphere turned", turned * scaling(0.5f, 0.5f, 0.5f), side, 0.5);
+    sphere("sphere far", Affine(), {200, -300, 100}, 1);
+    sphere("sphere very far", Affine(), {6e4f, -8e4f, 1e3f}, 1);
+    sphere("sphere near", Affine(), {0, 0.6f * 1.001f, -0.8f * 1.001f}, 1);
+    sphere("sphere touching", Affine(), {0, 0, 1.00001f}, 1);
+    sphere("sphere inside", Affine(), {0.3f, -0.2f, 0.5f}, 1);
+    sphere("sphere just inside", Affine(), {0.6f * 0.999f, 0, 0.8f * 0.999f}, 1);
+    sphere("sphere at centre", scaling(2, 2, 2), {0, 0, 0}, 2);
+    sphere("ellipsoid", slab, {2.5f, -0.8f, 2.1f}, 2);
+    sphere("ellipsoid near", slab, slab.point({0.6f * 1.01f, 0.8f * 1.01f, 0}), 2);
+    sphere("ellipsoid inside", slab, slab.point({0.4f, -0.1f, 0.6f}), 2);
+    sphere("ellipsoid sheared", shear, {2, -1.5f, 2.1f}, 2);
+    sphere("ellipsoid mirrored", mirror_shear, {-2, 1.5f, 1.1f}, 2);
+    sphere("ellipsoid far", mirror_shear, {-2e4f, 1.5e4f, 1e3f}, 2);
+
+    box("mesh", slab, {3.1f, -2.8f, 2.1f});
+    box("mesh mirrored", mirror, {2.1f, -1.8f, 2.1f});
+    box("mesh sheared", mirror_shear, {-2.5f, 1.9f, 1.1f});
+    box("mesh inside", slab, slab.point({0.2f, -0.3f, 0.4f}));
+    box("mesh far", slab, {3e4f, -2e4f, 2e4f});
+    return cases;
+}
+
+} // namespace weft::lights::testing

@@ -1,0 +1,138 @@
+// Parameter sets for every alternative of LobeVariant. An alternative without a specialisation
+// here does not compile: the tests cannot forget a lobe.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/hash.h"
+#include "lobes/bsdf.h"
+
+namespace weft::lobes::testing {
+
+template <class L>
+struct Configuration {
+    std::string name;
+    L lobe;
+    bool isotropic = true;
+    /// Relative error that rounding of directions (some 1e-6 in all) makes in the value.
+    float resolution = 1e-4f;
+};
+
+template <class L>
+std::vector<Configuration<L>> test_configurations() = delete;
+
+template <>
+inline std::vector<Configuration<Lambert>> test_configurations<Lambert>() {
+    return {{"Lambert", {}}};
+}
+
+template <>
+inline std::vector<Configuration<SpecularReflection>> test_configurations<SpecularReflection>() {
+    return {{"SpecularReflection", {}}};
+}
+
+template <>
+inline std::vector<Configuration<SpecularDielectric>> test_configurations<SpecularDielectric>() {
+    return {{"SpecularDielectric entering", {1.5f}},
+            {"SpecularDielectric leaving", {1 / 1.5f}},
+            {"SpecularDielectric matched", {1.f}},
+            {"SpecularDielectric tinted", {1.33f, Color(0.9f, 0.5f, 0.1f), Color(0.2f, 0.3f, 0.7f)}},
+            {"SpecularDielectric mirror only", {1.5f, Color(1), Color(0)}},
+            {"SpecularDielectric black", {1.5f, Color(0), Color(0)}}};
+}
+
+template <class Distribution>
+std::vector<Configuration<MicrofacetReflection<Distribution>>> reflections(std::string const& name) {
+    std::vector<Configuration<MicrofacetReflection<Distribution>>> all;
+    for (Vec2 const a : {Vec2(1e-3f, 1e-3f), Vec2(0.02f, 0.02f), Vec2(0.1f, 0.1f), Vec2(0.5f, 0.5f),
+                         Vec2(1, 1), Vec2(0.05f, 0.4f), Vec2(0.8f, 2e-3f)}) {
+        all.push_back({name + " alpha " + std::to_string(a.x) + " " + std::to_string(a.y),
+                       {{a.x, a.y}},
+                       a.x == a.y,
+                       std::max(1e-4f, 1e-6f / std::min(a.x, a.y))});
+    }
+    return all;
+}
+
+template <class Distribution>
+std::vector<Configuration<MicrofacetDielectric<Distribution>>> dielectrics(std::string const& name) {
+    struct Parameters {
+        float alpha_x, alpha_y, eta;
+        Color reflectance{1.f}, transmittance{1.f};
+    };
+    std::vector<Configuration<MicrofacetDielectric<Distribution>>> all;
+    for (Parameters const& p : std::vector<Parameters>{
+             {1e-3f, 1e-3f, 1.5f},
+             {1e-3f, 1e-3f, 1 / 1.5f},
+             {1e-3f, 1e-3f, 1},
+             {0.1f, 0.1f, 1.5f},
+             {0.1f, 0.1f, 1 / 1.5f},
+             {0.3f, 0.3f, 1},
+             {0.5f, 0.5f, 1.33f},
+             {0.5f, 0.5f, 1 / 1.33f},
+             {1, 1, 2.4f},
+             {1, 1, 1 / 2.4f},
+             {0.05f, 0.4f, 1.5f},
+             {0.4f, 0.05f, 1 / 1.5f},
+             {0.2f, 0.2f, 1.5f, Color(0.9f, 0.5f, 0.1f), Color(0.2f, 0.3f, 0.7f)},
+             {0.2f, 0.2f, 1 / 1.5f, Color(0), Color(1)},
+             {0.2f, 0.2f, 1.5f, Color(0), Color(0)}}) {
+        MicrofacetDielectric<Distribution> const lobe({p.alpha_x, p.alpha_y}, p.eta, p.reflectance,
+                                                      p.transmittance);
+        float const width =
+            std::min(p.alpha_x, p.alpha_y) * std::min(1.f, std::abs(lobe.eta() - 1));
+        all.push_back({name + " alpha " + std::to_string(p.alpha_x) + " " +
+                           std::to_string(p.alpha_y) + " eta " + std::to_string(p.eta) + " tints " +
+                           std::to_string(p.reflectance.r) + " " +
+                           std::to_string(p.transmittance.r),
+                       lobe, p.alpha_x == p.alpha_y, std::max(1e-4f, 1e-6f / width)});
+    }
+    return all;
+}
+
+template <>
+inline std::vector<Configuration<GgxReflection>> test_configurations<GgxReflection>() {
+    return reflections<Ggx>("GgxReflection");
+}
+template <>
+inline std::vector<Configuration<BeckmannReflection>> test_configurations<BeckmannReflection>() {
+    return reflections<Beckmann>("BeckmannReflection");
+}
+template <>
+inline std::vector<Configuration<GgxDielectric>> test_configurations<GgxDielectric>() {
+    return dielectrics<Ggx>("GgxDielectric");
+}
+template <>
+inline std::vector<Configuration<BeckmannDielectric>> test_configurations<BeckmannDielectric>() {
+    return dielectrics<Beckmann>("BeckmannDielectric");
+}
+
+/// The lobe that light meets on its way back, for wo on the other side.
+template <class L>
+L seen_from_behind(L const& lobe) {
+    return lobe;
+}
+template <class D>
+MicrofacetDielectric<D> seen_from_behind(MicrofacetDielectric<D> const& lobe) {
+    // Tints are recovered from the lobe's own words by the caller; white ones suffice here.
+    return {lobe.distribution(), 1 / lobe.eta()};
+}
+
+/// Calls f(configuration) for every configuration of every alternative that satisfies `Smooth`.
+template <bool Smooth, class F>
+void for_each_configuration(F&& f) {
+    for_each_type<LobeVariant>([&]<class L>() {
+        if constexpr (SmoothLobe<L> == Smooth) {
+            for (Configuration<L> const& c : test_configurations<L>()) f(c);
+        }
+    });
+}
+
+/// Unit vector with z > 0 at an angle in degrees, at an azimuth that lines up with nothing.
+inline Vec3 at_angle(float angle, float azimuth = 0.7f) {
+    float const t = radians(angle);
+    return {std::sin(t) * std::cos(azimuth), std::sin(t) * std::sin(azimuth), std::cos(t)};
+}
+
+} // namespace weft::lobes::testing

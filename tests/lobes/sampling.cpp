@@ -1,0 +1,180 @@
+// For every configuration of every smooth lobe: samples follow the density, the density
+// integrates to what sampling achieves, and value, density and albedo agree.
+#include <cstdio>
+
+#include <gtest/gtest.h>
+
+#include "tests/lobes/configurations.h"
+#include "tests/lobes/sphere_chi_square.h"
+
+using namespace weft;
+using namespace weft::lobes;
+using namespace weft::lobes::testing;
+
+namespace {
+
+constexpr double kAlpha = 0.01; // over each test
+constexpr float kAngles[] = {0.5f, 45, 80, 89};
+
+TEST(SmoothLobes, SamplesFollowTheDensity) {
+    constexpr int samples = 1 << 16;
+    struct Outcome {
+        std::string name;
+        SphereTest test;
+    };
+    std::vector<Outcome> outcomes;
+    for_each_configuration<true>([&](auto const& c) {
+        for (float const angle : kAngles) {
+            Vec3 const wo = at_angle(angle);
+            SphereChiSquare test([&](Vec3 const& u) { return c.lobe.sample(wo, u); },
+                                 [&](Vec3 const& wi) { return c.lobe.eval(wo, wi).pdf; });
+            outcomes.push_back({c.name + " at " + std::to_string(angle),
+                                test.run(outcomes.size() + 1, samples)});
+        }
+    });
+    int const count = int(outcomes.size());
+    double const level = weft::testing::sidak(kAlpha, count);
+    double worst_integral = 0;
+    for (auto const& [name, test] : outcomes) {
+        EXPECT_GE(test.chi_square.p_value, level)
+            << name << ": chi-square " << test.chi_square.statistic << " of "
+            << test.chi_square.dof << " " << test.chi_square.problem;
+        // Two-sided binomial test at the same level, plus the quadrature's error.
+        double const sigma = std::sqrt(test.success * (1 - test.success) / samples);
+        double const difference = std::abs(test.integral - test.success);
+        double const beyond = std::max(difference - 1e-3, 0.0);
+        EXPECT_TRUE(beyond == 0 || weft::testing::normal_tail(beyond / sigma) >= level)
+            << name << ": the density integrates to " << test.integral << ", "
+            << test.success << " of the samples succeed";
+        if (test.success == 1) worst_integral = std::max(worst_integral, difference);
+    }
+    std::printf("%d chi-square tests; worst |integral - 1| without failures: %.2g\n", count,
+                worst_integral);
+}
+
+/// The mean of f eta_scale / pdf over samples, per channel, with its variance.
+template <class L>
+std::array<weft::testing::Estimate, 3> monte_carlo_albedo(L const& lobe, Vec3 const& wo, int samples,
+                                                          uint64_t seed) {
+    Rng rng(seed);
+    std::array<std::vector<double>, 3> values;
+    for (int i = 0; i < samples; ++i) {
+        Vec3 const wi = lobe.sample(wo, rng.next3());
+        LobeValue const v = wi == Vec3(0) ? LobeValue{} : lobe.eval(wo, wi);
+        float const scale = v.pdf > 0 ? transmission_eta_scale(lobe, wi) / v.pdf : 0.f;
+        for (int k = 0; k < 3; ++k) values[size_t(k)].push_back(v.f[k] * scale);
+    }
+    return {weft::testing::estimate(values[0]), weft::testing::estimate(values[1]),
+            weft::testing::estimate(values[2])};
+}
+
+TEST(SmoothLobes, GiveNoMoreThanTheyReceive) {
+    struct Case {
+        std::string name;
+        weft::testing::Estimate albedo;
+    };
+    std::vector<Case> cases;
+    for_each_configuration<true>([&](auto const& c) {
+        for (float const angle : {0.f, 30.f, 60.f, 80.f, 89.f, 89.99f}) {
+            auto const mc = monte_carlo_albedo(c.lobe, at_angle(angle), 1 << 12, cases.size());
+            for (auto const& e : mc) cases.push_back({c.name + " at " + std::to_string(angle), e});
+        }
+    });
+    double const level = weft::testing::sidak(kAlpha, int(cases.size()));
+    for (auto const& [name, e] : cases) {
+        double const beyond = e.mean - 1 - 1e-4; // 1e-4: single precision of a mean of ones
+        EXPECT_TRUE(beyond <= 0 ||
+                    weft::testing::normal_tail(beyond / std::sqrt(e.variance)) / 2 >= level)
+            << name << ": " << e.mean << " +- " << std::sqrt(e.variance);
+    }
+}
+
+/// u of a low-discrepancy sequence: M. Roberts 2018, the R3 sequence.
+Vec3 r3(int i) {
+    auto const part = [&](double a) { return float(std::fmod(0.5 + a * (i + 1), 1.0)); };
+    Vec3 const u(part(0.8191725133961645), part(0.6710436067037893), part(0.5497004779019703));
+    return {std::min(u.x, kOneMinusEpsilon), std::min(u.y, kOneMinusEpsilon),
+            std::min(u.z, kOneMinusEpsilon)};
+}
+
+template <class L>
+Color quadrature_albedo(L const& lobe, Vec3 const& wo, int samples) {
+    Vec3d sum(0);
+    for (int i = 0; i < samples; ++i) {
+        Vec3 const wi = lobe.sample(wo, r3(i));
+        if (wi == Vec3(0)) continue;
+        LobeValue const v = lobe.eval(wo, wi);
+        if (!(v.pdf > 0)) continue;
+        Color const w = v.f * (transmission_eta_scale(lobe, wi) / v.pdf);
+        sum += Vec3d(w.r, w.g, w.b);
+    }
+    return {float(sum.x / samples), float(sum.y / samples), float(sum.z / samples)};
+}
+
+struct AlbedoError {
+    double sum = 0, worst = 0;
+    int count = 0;
+    void add(Color const& a, Color const& b) {
+        for (int k = 0; k < 3; ++k) {
+            double const e = std::abs(a[k] - b[k]);
+            sum += e;
+            worst = std::max(worst, e);
+            ++count;
+        }
+    }
+    double mean() const { return count ? sum / count : 0; }
+};
+
+/// Every alternative, at its configurations: mean error over angles.
+TEST(SmoothLobes, AlbedoIsWhatLeaves) {
+    for_each_type<LobeVariant>([&]<class L>() {
+        if constexpr (SmoothLobe<L>) {
+            AlbedoError isotropic, anisotropic;
+            std::string name;
+            for (Configuration<L> const& c : test_configurations<L>()) {
+                name = c.name.substr(0, c.name.find(' '));
+                for (float cos_o = 0.025f; cos_o < 1; cos_o += 0.05f) {
+                    for (float const azimuth : {0.f, 0.7f, 1.5f}) {
+                        Vec3 const wo = at_angle(degrees(std::acos(cos_o)), azimuth);
+                        Color const truth = quadrature_albedo(c.lobe, wo, 1 << 11);
+                        (c.isotropic ? isotropic : anisotropic).add(c.lobe.albedo(wo), truth);
+                    }
+                }
+            }
+            std::printf("%-20s albedo error: isotropic mean %.4f worst %.3f, anisotropic mean %.4f "
+                        "worst %.3f\n",
+                        name.c_str(), isotropic.mean(), isotropic.worst, anisotropic.mean(),
+                        anisotropic.worst);
+            EXPECT_LE(isotropic.mean(), 0.01) << name;
+            EXPECT_LE(anisotropic.mean(), 0.05) << name;
+        }
+    });
+}
+
+/// The tables over all of their domain that materials use, not at favourite places.
+template <class Distribution>
+void check_tables(char const* name) {
+    Rng rng(17);
+    AlbedoError reflection, dielectric;
+    for (int i = 0; i < 400; ++i) {
+        float const alpha = std::max(square(rng.next()), 1e-3f);
+        float const eta = std::exp(rng.next() * 2 - 1); // 0.37 ... 2.72
+        Vec3 const wo = at_angle(degrees(std::acos(std::max(rng.next(), 1e-3f))));
+        MicrofacetReflection<Distribution> const r{{alpha, alpha}};
+        MicrofacetDielectric<Distribution> const d({alpha, alpha}, eta, Color(1, 1, 0),
+                                                   Color(1, 0, 1));
+        reflection.add(r.albedo(wo), quadrature_albedo(r, wo, 1 << 11));
+        dielectric.add(d.albedo(wo), quadrature_albedo(d, wo, 1 << 12));
+    }
+    std::printf("%s tables: reflection mean %.4f worst %.3f, dielectric mean %.4f worst %.3f\n",
+                name, reflection.mean(), reflection.worst, dielectric.mean(), dielectric.worst);
+    EXPECT_LE(reflection.mean(), 0.01);
+    EXPECT_LE(dielectric.mean(), 0.01);
+}
+
+TEST(SmoothLobes, AlbedoTablesAreAccurateBetweenNodes) {
+    check_tables<Ggx>("Ggx");
+    check_tables<Beckmann>("Beckmann");
+}
+
+} // namespace

@@ -1,0 +1,198 @@
+// A chi-square test of directions against a density over the sphere that resolves lobes of any
+// width: the sphere is cut where pilot samples lie, and the density integrated adaptively over
+// each cell.
+//
+// Coordinates: hemisphere, t = 1 - |z| in [0, 1] (computed from x and y, so that it keeps its
+// digits near the pole) and azimuth. The map preserves area: d omega = dt dphi.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <vector>
+
+#include "base/hash.h"
+#include "base/vec.h"
+#include "tests/support/statistics.h"
+
+namespace weft::lobes::testing {
+
+struct SphereTest {
+    double integral = 0;       ///< of the density over the sphere
+    double success = 0;        ///< fraction of samples that did not fail
+    long evaluations = 0;      ///< of the density
+    weft::testing::ChiSquare chi_square;
+};
+
+class SphereChiSquare {
+  public:
+    using Sample = std::function<Vec3(Vec3 const& u)>; ///< zero vector = failure
+    using Density = std::function<float(Vec3 const& w)>;
+
+    SphereChiSquare(Sample sample, Density density)
+        : sample_(std::move(sample)), density_(std::move(density)) {}
+
+    SphereTest run(uint64_t seed, int samples) {
+        Rng pilot_rng(hash64(seed) ^ 1), rng(hash64(seed) ^ 2);
+        std::array<std::vector<Point>, 2> pilot;
+        for (int i = 0; i < kPilot; ++i) {
+            Vec3 const w = sample_(pilot_rng.next3());
+            if (w != Vec3(0)) pilot[w.z < 0].push_back(point(w));
+        }
+        for (int side = 0; side < 2; ++side)
+            roots_[size_t(side)] =
+                build(Box{side, 0, 1, -kPiD, kPiD}, pilot[size_t(side)], kPilot / kBins);
+
+        std::vector<double> observed(integrals_.size());
+        double hits = 0;
+        for (int i = 0; i < samples; ++i) {
+            Vec3 const w = sample_(rng.next3());
+            if (w == Vec3(0)) continue;
+            ++observed[size_t(find(w.z < 0, point(w)))];
+            ++hits;
+        }
+        SphereTest result;
+        for (double x : integrals_) result.integral += x;
+        result.success = hits / samples;
+        result.evaluations = evaluations_;
+        std::vector<double> expected;
+        for (double x : integrals_) expected.push_back(x / result.integral * hits);
+        if (hits > 0) result.chi_square = weft::testing::chi_square(observed, expected);
+        return result;
+    }
+
+  private:
+    static constexpr double kPiD = 3.14159265358979323846;
+    static constexpr int kPilot = 1 << 13, kBins = 1 << 7;
+
+    struct Point {
+        double t, phi;
+    };
+    struct Box {
+        int side;
+        double t0, t1, phi0, phi1;
+        double area() const { return (t1 - t0) * (phi1 - phi0); }
+    };
+    struct Node {
+        bool by_phi = false;
+        double split = 0;
+        int below = -1, above = -1; ///< nodes, or -1
+        int bin = -1;
+    };
+
+    static Point point(Vec3 const& w) {
+        double const x = w.x, y = w.y, z = std::abs(double(w.z));
+        return {(x * x + y * y) / (1 + z), std::atan2(y, x)};
+    }
+
+    /// Cells below `bin_size` pilot samples become one bin, but are cut on (as cells of
+    /// integration) so that each holds few samples.
+    int build(Box const& box, std::vector<Point>& points, int bin_size) {
+        int const index = int(nodes_.size());
+        nodes_.emplace_back();
+        if (int(points.size()) <= bin_size) {
+            nodes_[size_t(index)].bin = int(integrals_.size());
+            integrals_.push_back(integrate_cell(box, points));
+            return index;
+        }
+        auto [node, below, above] = cut(box, points);
+        std::vector<Point> lower, upper;
+        partition(node, points, lower, upper);
+        int const b = build(below, lower, bin_size), a = build(above, upper, bin_size);
+        node.below = b;
+        node.above = a;
+        nodes_[size_t(index)] = node;
+        return index;
+    }
+
+    struct Cut {
+        Node node;
+        Box below, above;
+    };
+    /// At the median along the axis in which the points are most concentrated.
+    static Cut cut(Box const& box, std::vector<Point>& points) {
+        size_t const n = points.size();
+        auto const quartiles = [&](auto key) {
+            std::vector<double> keys;
+            for (Point const& p : points) keys.push_back(key(p));
+            std::sort(keys.begin(), keys.end());
+            return std::array{keys[n / 4], (keys[(n - 1) / 2] + keys[n / 2]) / 2, keys[3 * n / 4]};
+        };
+        auto const t = quartiles([](Point const& p) { return p.t; });
+        auto const phi = quartiles([](Point const& p) { return p.phi; });
+        Cut c{{}, box, box};
+        c.node.by_phi =
+            (phi[2] - phi[0]) * (box.t1 - box.t0) < (t[2] - t[0]) * (box.phi1 - box.phi0);
+        c.node.split = c.node.by_phi ? phi[1] : t[1];
+        (c.node.by_phi ? c.below.phi1 : c.below.t1) = c.node.split;
+        (c.node.by_phi ? c.above.phi0 : c.above.t0) = c.node.split;
+        return c;
+    }
+    static void partition(Node const& node, std::vector<Point> const& points,
+                          std::vector<Point>& lower, std::vector<Point>& upper) {
+        for (Point const& p : points)
+            ((node.by_phi ? p.phi : p.t) < node.split ? lower : upper).push_back(p);
+    }
+
+    int find(bool below_horizon, Point const& p) const {
+        int n = roots_[below_horizon];
+        while (nodes_[size_t(n)].bin < 0) {
+            Node const& node = nodes_[size_t(n)];
+            n = (node.by_phi ? p.phi : p.t) < node.split ? node.below : node.above;
+        }
+        return nodes_[size_t(n)].bin;
+    }
+
+    double integrate_cell(Box const& box, std::vector<Point>& points) {
+        if (points.size() <= 16) return integrate(box, rule(box), 0);
+        auto const [node, below, above] = cut(box, points);
+        std::vector<Point> lower, upper;
+        partition(node, points, lower, upper);
+        if (lower.empty() || upper.empty()) return integrate(box, rule(box), 0);
+        return integrate_cell(below, lower) + integrate_cell(above, upper);
+    }
+
+    /// Gauss-Lobatto, 5 x 5: its nodes on the border see a peak that lies against it.
+    double rule(Box const& b) {
+        static constexpr std::array x{-1.0, -0.65465367070797714, 0.0, 0.65465367070797714, 1.0};
+        static constexpr std::array w{0.05, 49 / 180.0, 16 / 45.0, 49 / 180.0, 0.05};
+        double sum = 0;
+        for (size_t i = 0; i < 5; ++i) {
+            // The horizon itself belongs to neither side.
+            double const t =
+                std::min((b.t0 + b.t1 + x[i] * (b.t1 - b.t0)) / 2, 1 - 1e-8);
+            double const r = std::sqrt(t * (2 - t)), z = b.side ? t - 1 : 1 - t;
+            for (size_t j = 0; j < 5; ++j) {
+                double const phi = (b.phi0 + b.phi1 + x[j] * (b.phi1 - b.phi0)) / 2;
+                sum += w[i] * w[j] *
+                       density_({float(r * std::cos(phi)), float(r * std::sin(phi)), float(z)});
+            }
+        }
+        evaluations_ += 25;
+        return sum * b.area();
+    }
+
+    double integrate(Box const& b, double whole, int depth) {
+        double const t = (b.t0 + b.t1) / 2, phi = (b.phi0 + b.phi1) / 2;
+        std::array<Box, 4> const parts{Box{b.side, b.t0, t, b.phi0, phi},
+                                       Box{b.side, t, b.t1, b.phi0, phi},
+                                       Box{b.side, b.t0, t, phi, b.phi1},
+                                       Box{b.side, t, b.t1, phi, b.phi1}};
+        std::array<double, 4> values{};
+        double sum = 0;
+        for (size_t i = 0; i < 4; ++i) sum += values[i] = rule(parts[i]);
+        // Rounding of the directions makes narrow densities rough; 1e-6 of all is beyond need.
+        if (std::abs(sum - whole) < 2e-6 || depth == 16) return sum;
+        sum = 0;
+        for (size_t i = 0; i < 4; ++i) sum += integrate(parts[i], values[i], depth + 1);
+        return sum;
+    }
+
+    Sample sample_;
+    Density density_;
+    std::vector<Node> nodes_;
+    std::array<int, 2> roots_{};
+    std::vector<double> integrals_; ///< per bin
+    long evaluations_ = 0;
+};
+
+} // namespace weft::lobes::testing
