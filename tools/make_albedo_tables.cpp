@@ -92,7 +92,10 @@ void write_tables(char const* name) {
             for (int e = 0; e < indices; ++e)
                 for (int a = 0; a < alphas; ++a)
                     for (int c = 0; c < cosines; ++c) {
-                        float const ratio = index_at(node(e, indices)), u = node(c, cosines);
+                        // Total reflection does not fade as the indices meet: it shrinks. The
+                        // first node stands for that limit rather than for equal indices.
+                        float const ratio = std::max(index_at(node(e, indices)), 1.001f);
+                        float const u = node(c, cosines);
                         float const eta = leaving ? 1 / ratio : ratio;
                         float const cos_o = leaving ? leaving_cosine_at(u, eta) : cosine_at(u);
                         DielectricAlbedo const albedo =

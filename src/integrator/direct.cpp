@@ -18,7 +18,11 @@ void direct(world::World const& world, scene::Strategy strategy, PathState const
     if (!(light.pdf > 0) || (strategy == scene::Strategy::bsdf && !light.delta)) return;
     lobes::LobeValue const value = point.eval(light.wi);
     if (is_black(value.f) || is_black(light.radiance)) return;
-    world::Ray shadow{point.origin(light.wi), light.wi, light.distance, path.ray.time};
+    world::Ray shadow;
+    shadow.origin = point.origin(light.wi);
+    shadow.direction = light.wi;
+    shadow.t_max = light.distance;
+    shadow.time = path.ray.time;
     if (light.distance < kInfinity) {
         // From the offset origin to just before the light, whose own offset was added to `p`.
         float const moved = dot(shadow.origin - point.p, light.wi);

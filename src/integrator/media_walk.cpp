@@ -41,7 +41,9 @@ media::MediumStack media_at(world::World const& world, Vec3 const& p) {
     // Objects whose first crossing leaves them contain the point.
     std::vector<media::Interior> containing;
     std::vector<uint32_t> seen;
-    world::Ray ray{p, normalize(Vec3(0.4082f, 0.7071f, 0.5774f))};
+    world::Ray ray;
+    ray.origin = p;
+    ray.direction = normalize(Vec3(0.4082f, 0.7071f, 0.5774f));
     for (int crossing = 0; crossing < kMaxCrossings; ++crossing) {
         world::Hit const hit = world.intersect(ray);
         if (!hit) break;

@@ -42,8 +42,10 @@ bool fly(world::World const& world, PathState& path, float limit, sampling::Samp
     Vec2 const u_distance = u.get2(Dimension::Distance, vertex);
     media::MediumSample const s = media::sample_distance(world.medium(medium), path.throughput, limit, u_distance);
     path.throughput *= s.weight;
-    if (s.scattered) path.ray.origin += path.ray.direction * s.distance;
-    return s.scattered;
+    if (!s.scattered) return false;
+    path.ray.origin += path.ray.direction * s.distance;
+    path.ray.t_min = world::Ray().t_min;
+    return true;
 }
 
 /// Light sampling at the ray's origin inside the medium, and a new direction.
@@ -66,6 +68,7 @@ void continue_from(world::World const& world, PathState& path, shading::SurfaceP
     if (through) cross_boundary(world, point, direction, path.media);
     path.ray.origin = shading::offset_origin(point, direction);
     path.ray.direction = direction;
+    path.ray.t_min = world::Ray().t_min;
 }
 
 /// Ends paths that carry little, and strengthens those that survive: the mean stays.

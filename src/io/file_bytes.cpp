@@ -2,13 +2,10 @@
 
 #include "base/error.h"
 
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <new>
 
 #include <fcntl.h>
-#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -31,19 +28,6 @@ struct Descriptor {
     throw InputError({path}, std::string(what) + ": " + std::strerror(errno));
 }
 
-FileBytes::Buffer allocate(size_t size) {
-    constexpr size_t kHugePage = size_t(1) << 21;
-    bool const large = size >= kHugePage;
-    size_t const alignment = large ? kHugePage : 64;
-    size_t const rounded = (std::max<size_t>(size, 1) + alignment - 1) / alignment * alignment;
-    FileBytes::Buffer data(static_cast<char*>(std::aligned_alloc(alignment, rounded)));
-    if (!data) throw std::bad_alloc();
-#ifdef MADV_HUGEPAGE
-    if (large) ::madvise(data.get(), rounded, MADV_HUGEPAGE); // advice: may be refused
-#endif
-    return data;
-}
-
 } // namespace
 
 FileBytes read_file(std::string const& path) {
@@ -56,7 +40,7 @@ FileBytes read_file(std::string const& path) {
         throw InputError({path}, S_ISDIR(status.st_mode) ? "expected a file, found a folder"
                                                          : "expected a regular file");
     size_t const expected = size_t(status.st_size);
-    FileBytes::Buffer data = allocate(expected);
+    std::unique_ptr<char[]> data(new char[expected]);
     size_t size = 0;
     while (size < expected) {
         ssize_t const n = ::read(file.fd, data.get() + size, expected - size);

@@ -54,9 +54,12 @@ int32_t push(std::vector<T>& to, T value) {
 }
 
 /// Screen colours to linear ones. They are integers over 255 or 65535, so a table has them all.
-void decode_srgb(image::Image& image) {
+void decode(image::Image& image, scene::ColorSpace from) {
     std::vector<float> table(65536);
-    for (size_t i = 0; i < table.size(); ++i) table[i] = srgb_to_linear(float(i) / 65535);
+    for (size_t i = 0; i < table.size(); ++i) {
+        float const v = float(i) / 65535;
+        table[i] = from == scene::ColorSpace::srgb_texture ? srgb_to_linear(v) : std::pow(v, 2.2f);
+    }
     int const colors = image.channels >= 3 ? 3 : 1;
     for (size_t i = 0; i < image.pixels.size(); i += size_t(image.channels))
         for (int c = 0; c < colors; ++c) {
@@ -141,12 +144,12 @@ std::string SceneBuilder::find_file(scene::FileName const& file, XmlElement cons
     throw InputError(where, "expected a file at '" + path.string() + "', found " + (fs::is_directory(path, error) ? "a folder" : "none"));
 }
 
-int32_t SceneBuilder::load_image(scene::FileName const& file, bool linear, XmlElement const& element) {
+int32_t SceneBuilder::load_image(scene::FileName const& file, scene::ColorSpace encoding, XmlElement const& element) {
     std::string const path = find_file(file, element);
-    auto& image = document_.images[path + (linear ? " linear" : "")];
+    auto& image = document_.images[path + " " + schema::TextForm<scene::ColorSpace>::write(encoding)];
     if (!image) {
         image::Image loaded = image::read_image(path);
-        if (loaded.is_srgb_encoded && !linear) decode_srgb(loaded);
+        if (loaded.is_srgb_encoded && encoding != scene::ColorSpace::lin_rec709) decode(loaded, encoding);
         image = std::make_shared<image::Image const>(std::move(loaded));
     }
     for (size_t i = 0; i < scene_.images.size(); ++i)
@@ -155,11 +158,11 @@ int32_t SceneBuilder::load_image(scene::FileName const& file, bool linear, XmlEl
 }
 
 void SceneBuilder::complete(scene::ImageTexture& texture, XmlElement const& element) {
-    texture.filename.resource = load_image(texture.filename, texture.linear, element);
+    texture.filename.resource = load_image(texture.filename, texture.linear ? scene::ColorSpace::lin_rec709 : texture.color_space, element);
 }
 
 void SceneBuilder::complete(scene::ThinLens& camera, XmlElement const& element) {
-    if (!camera.bokeh.path.empty()) camera.bokeh.resource = load_image(camera.bokeh, false, element);
+    if (!camera.bokeh.path.empty()) camera.bokeh.resource = load_image(camera.bokeh, scene::ColorSpace::srgb_texture, element);
 }
 
 void SceneBuilder::complete(scene::MeshShape& shape, XmlElement const& element) {

@@ -73,7 +73,8 @@ class SceneBuilder {
     void complete(scene::AreaLight& light, XmlElement const& element);
 
     std::string find_file(scene::FileName const& file, XmlElement const& element) const;
-    int32_t load_image(scene::FileName const& file, bool linear, XmlElement const& element);
+    int32_t load_image(scene::FileName const& file, scene::ColorSpace encoding,
+                       XmlElement const& element);
 
     Document& document_;
     scene::Scene& scene_;

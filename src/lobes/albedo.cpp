@@ -19,7 +19,7 @@ struct Cell {
     }
 };
 
-float geometric_mean_alpha(float x, float y) { return std::sqrt(x * y); }
+float mean_square_alpha(float x, float y) { return std::sqrt(0.5f * (x * x + y * y)); }
 
 constexpr int kSlab = alphas * cosines; // one index; kSlab * indices is one part of a side
 
@@ -55,20 +55,20 @@ DielectricAlbedo dielectric(uint16_t const* table, float alpha, float cos_o, flo
 } // namespace
 
 float reflection_albedo(Ggx const& d, float cos_o) {
-    return reflection(albedo_tables::ggx_reflection, geometric_mean_alpha(d.alpha_x, d.alpha_y),
+    return reflection(albedo_tables::ggx_reflection, mean_square_alpha(d.alpha_x, d.alpha_y),
                       cos_o);
 }
 float reflection_albedo(Beckmann const& d, float cos_o) {
     return reflection(albedo_tables::beckmann_reflection,
-                      geometric_mean_alpha(d.alpha_x, d.alpha_y), cos_o);
+                      mean_square_alpha(d.alpha_x, d.alpha_y), cos_o);
 }
 DielectricAlbedo dielectric_albedo(Ggx const& d, float cos_o, float eta) {
-    return dielectric(albedo_tables::ggx_dielectric, geometric_mean_alpha(d.alpha_x, d.alpha_y),
+    return dielectric(albedo_tables::ggx_dielectric, mean_square_alpha(d.alpha_x, d.alpha_y),
                       cos_o, eta);
 }
 DielectricAlbedo dielectric_albedo(Beckmann const& d, float cos_o, float eta) {
     return dielectric(albedo_tables::beckmann_dielectric,
-                      geometric_mean_alpha(d.alpha_x, d.alpha_y), cos_o, eta);
+                      mean_square_alpha(d.alpha_x, d.alpha_y), cos_o, eta);
 }
 
 } // namespace weft::lobes

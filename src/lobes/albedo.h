@@ -3,7 +3,7 @@
 //
 // tools/make_albedo_tables.cpp writes the tables (albedo_tables.h) on the grids declared here.
 // Between nodes they are interpolated linearly. Anisotropic distributions are looked up at the
-// geometric mean of their alphas, which forgets the azimuth of wo. Alphas beyond 1 and indices
+// root mean square of their alphas, which forgets the azimuth of wo. Alphas beyond 1 and indices
 // beyond 4 (or below 1 / 4) are taken at that bound.
 #pragma once
 
@@ -17,31 +17,35 @@ namespace weft::lobes {
 namespace albedo_grid {
 inline constexpr int cosines = 17; ///< odd: the dielectrics put a node on the critical angle
 inline constexpr int alphas = 10;
-inline constexpr int indices = 6;
+inline constexpr int indices = 8;
 inline constexpr float max_contrast = 0.6f; ///< (eta - 1) / (eta + 1) at eta = 4
 
 // Each coordinate is in [0, 1], the nodes being equally spaced in it.
 
 inline float alpha_coordinate(float alpha) { return std::sqrt(alpha); }
 inline float alpha_at(float coordinate) { return square(coordinate); }
-/// `ratio` is the greater index over the smaller one.
-inline float index_coordinate(float ratio) { return (ratio - 1) / ((ratio + 1) * max_contrast); }
+/// `ratio` >= 1 is the greater index over the smaller one. The root of the contrast is about
+/// linear in the critical angle's cosine, which sets the scale of all that happens.
+inline float index_coordinate(float ratio) {
+    return std::sqrt((ratio - 1) / ((ratio + 1) * max_contrast));
+}
 inline float index_at(float coordinate) {
-    float const c = coordinate * max_contrast;
+    float const c = square(coordinate) * max_contrast;
     return (1 + c) / (1 - c);
 }
 inline float cosine_coordinate(float c) { return std::sqrt(c); }
 inline float cosine_at(float coordinate) { return square(coordinate); }
-/// Leaving the denser medium: the lower half holds total reflection, the upper half is linear in
-/// the refracted cosine, in which Fresnel reflectance has no kink. eta <= 1.
+/// Leaving the denser medium: the lower half holds total reflection, densest at the critical
+/// angle; the upper half is linear in the refracted cosine, in which Fresnel reflectance has no
+/// kink. eta <= 1.
 inline float leaving_cosine_coordinate(float c, float eta) {
-    float const k = (eta - 1) * (eta + 1) + c * c, critical2 = (1 - eta) * (1 + eta);
+    float const k = (eta - 1) * (eta + 1) + c * c, critical = std::sqrt((1 - eta) * (1 + eta));
     if (k >= 0) return 0.5f + 0.5f * std::sqrt(k) / eta;
-    return 0.5f * std::sqrt(c / std::sqrt(critical2));
+    return 0.5f - 0.5f * safe_sqrt(1 - c / critical);
 }
 inline float leaving_cosine_at(float coordinate, float eta) {
     float const critical2 = (1 - eta) * (1 + eta);
-    if (coordinate < 0.5f) return std::sqrt(critical2) * square(2 * coordinate);
+    if (coordinate < 0.5f) return std::sqrt(critical2) * (1 - square(1 - 2 * coordinate));
     return std::sqrt(critical2 + square(eta * (2 * coordinate - 1)));
 }
 } // namespace albedo_grid

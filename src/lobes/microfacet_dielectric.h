@@ -3,9 +3,9 @@
 // side. Reflection and transmission share one microsurface and the exact Fresnel equations, each
 // with a tint of its own. Radiance that crosses is scaled by 1 / eta^2 (see lobe.h).
 //
-// A refracted lobe is about alpha |eta - 1| wide. Floats resolve directions to about 1e-7, so that
-// `eta` is kept 1e-5 / alpha away from 1 (0.01 at alpha = 1e-3). A material that means exactly
-// matched indices uses SpecularDielectric.
+// A refracted lobe is about alpha |eta - 1| wide and its half vector about |eta - 1| long. Floats
+// resolve directions to about 1e-7, so that `eta` is kept max(1e-3, 1e-5 / alpha) away from 1
+// (0.01 at alpha = 1e-3). A material that means exactly matched indices uses SpecularDielectric.
 #pragma once
 
 #include "lobes/albedo.h"
@@ -95,7 +95,7 @@ class MicrofacetDielectric {
     float transmit_probability(float fresnel) const { return 1 - reflect_probability(fresnel); }
 
     static float resolvable_eta(Distribution const& d, float eta) {
-        float const gap = 1e-5f / std::min(d.alpha_x, d.alpha_y);
+        float const gap = std::max(1e-3f, 1e-5f / std::min(d.alpha_x, d.alpha_y));
         return eta >= 1 ? std::max(eta, 1 + gap) : std::min(eta, 1 / (1 + gap));
     }
 

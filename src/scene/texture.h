@@ -26,18 +26,25 @@ constexpr auto choices(TextureBorder) { return std::array<std::string_view, 2>{"
 enum class TextureFilter { bilinear, nearest };
 constexpr auto choices(TextureFilter) { return std::array<std::string_view, 2>{"bilinear", "nearest"}; }
 
+/// Names as in MaterialX. Files of floats are linear whatever is said here.
+enum class ColorSpace { g22_rec709, srgb_texture, lin_rec709 };
+constexpr auto choices(ColorSpace) {
+    return std::array<std::string_view, 3>{"g22_rec709", "srgb_texture", "lin_rec709"};
+}
+
 struct ImageTexture {
     static constexpr schema::TypeInfo info{
         .category = "texture",
         .type = "image",
-        .help = "An image file over the unit square of uv; v runs upwards. 8 and 16 bit files are "
-                "sRGB unless `linear` is set, float files (EXR, HDR) are linear.",
+        .help = "An image file over the unit square of uv; v runs upwards. 8 and 16 bit files hold "
+                "screen colours unless `linear` is set, float files (EXR, HDR) are linear.",
         .example = "<texture name=\"albedo\" type=\"image\" filename=\"wood.png\"/>"};
     FileName filename;
     float exposure = 1;
     TextureBorder border = TextureBorder::repeat;
     TextureFilter filter = TextureFilter::bilinear;
     bool linear = false;
+    ColorSpace color_space = ColorSpace::g22_rec709;
 
     template <class F>
     constexpr void describe(F&& f) {
@@ -45,7 +52,8 @@ struct ImageTexture {
         f("exposure", exposure, {.min = 0, .help = "A factor on all values."});
         f("border", border, {.help = "What lies outside of [0, 1]: the image again, or its border pixels."});
         f("filter", filter, {.help = "How values between pixel centres are made."});
-        f("linear", linear, {.help = "The file holds data (roughness, normals), not sRGB colours."});
+        f("linear", linear, {.help = "The file holds data (roughness, normals), not colours."});
+        f("colorSpace", color_space, {.help = "How 8 and 16 bit files encode colours: a gamma of 2.2 as lightwave has it, sRGB's own curve, or not at all."});
     }
 };
 

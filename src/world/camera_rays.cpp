@@ -91,7 +91,13 @@ Ray CameraRays::ray(Vec2 raster, Vec2 lens, float time) const {
             direction = direction * focal_distance_ - origin;
         }
     }
-    return {to_world_.point(origin), normalize(to_world_.vector(direction)), kInfinity, time};
+    Ray ray;
+    ray.origin = to_world_.point(origin);
+    ray.direction = normalize(to_world_.vector(direction));
+    ray.time = time;
+    // What is nearer than the rounding of the camera's own place cannot be told to be in front.
+    ray.t_min = std::max(ray.t_min, kRounding * max_component(abs(ray.origin)));
+    return ray;
 }
 
 } // namespace weft::world

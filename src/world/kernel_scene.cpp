@@ -53,7 +53,7 @@ void throw_on_error(RTCDevice device) {
 }
 
 RTCRay to_kernel(Ray const& ray) {
-    return {ray.origin.x, ray.origin.y, ray.origin.z, 0, ray.direction.x, ray.direction.y, ray.direction.z, ray.time, ray.t_max, ~0u, 0, 0};
+    return {ray.origin.x, ray.origin.y, ray.origin.z, ray.t_min, ray.direction.x, ray.direction.y, ray.direction.z, ray.time, ray.t_max, ~0u, 0, 0};
 }
 
 } // namespace

@@ -1,5 +1,7 @@
 #include "world/light_table.h"
 
+#include "world/ray.h"
+
 namespace weft::world {
 
 LightTable::LightTable(std::vector<Light> lights, std::span<float const> weights,
@@ -39,7 +41,7 @@ LightSample LightTable::sample_light(AreaLight const& l, Vec3 const& ref, Vec2 u
     sample.pdf = s.pdf;
     // As far off the light as a ray that leaves it would start.
     Vec3 const extent = abs(s.p) + Vec3(std::sqrt(match(l.emitter, [](auto const& e) { return e.area(); })));
-    sample.p_error = 8 * std::numeric_limits<float>::epsilon() * dot(abs(s.n), extent);
+    sample.p_error = kRounding * dot(abs(s.n), extent);
     return sample;
 }
 

@@ -11,7 +11,10 @@ struct Ray {
     Vec3 origin{0, 0, 0};
     Vec3 direction{0, 0, 1}; ///< unit
     float t_max = kInfinity;
-    float time = 0; ///< in [0, 1] of the shutter interval
+    /// Hits must lie beyond this. Not 0: the kernel takes a ray that starts in the very plane of
+    /// a triangle as hitting it at 0.
+    float t_min = 1e-18f;
+    float time = 0;       ///< in [0, 1] of the shutter interval
 };
 
 /// The kernel's answer: which primitive, and where on it.
@@ -22,5 +25,10 @@ struct Hit {
     float u = 0, v = 0; ///< barycentric coordinates of vertices 1 and 2
     explicit operator bool() const { return object != UINT32_MAX; }
 };
+
+/// How many units in the last place a computed position may be off: the chain of transform,
+/// interpolation and kernel test, a handful of operations of half a unit each, with room for the
+/// kernel's own. Times the largest coordinate that takes part it is a distance.
+inline constexpr float kRounding = 8 * std::numeric_limits<float>::epsilon();
 
 } // namespace weft::world

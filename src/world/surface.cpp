@@ -5,11 +5,6 @@ namespace weft::world {
 
 namespace {
 
-/// Rounding of the chain transform, interpolation and kernel test, in units of the largest
-/// coordinate that takes part: a handful of operations of half an ulp each, with room for the
-/// kernel's own.
-constexpr float kRounding = 8 * std::numeric_limits<float>::epsilon();
-
 Vec3 max_abs(Vec3 const& a, Vec3 const& b) {
     return {std::max(std::abs(a.x), std::abs(b.x)), std::max(std::abs(a.y), std::abs(b.y)), std::max(std::abs(a.z), std::abs(b.z))};
 }

@@ -45,7 +45,7 @@ inline std::vector<Configuration<SpecularDielectric>> test_configurations<Specul
 template <class Distribution>
 std::vector<Configuration<MicrofacetReflection<Distribution>>> reflections(std::string const& name) {
     std::vector<Configuration<MicrofacetReflection<Distribution>>> all;
-    for (Vec2 const a : {Vec2(1e-3f, 1e-3f), Vec2(0.02f, 0.02f), Vec2(0.1f, 0.1f), Vec2(0.5f, 0.5f),
+    for (Vec2 const& a : {Vec2(1e-3f, 1e-3f), Vec2(0.02f, 0.02f), Vec2(0.1f, 0.1f), Vec2(0.5f, 0.5f),
                          Vec2(1, 1), Vec2(0.05f, 0.4f), Vec2(0.8f, 2e-3f)}) {
         all.push_back({name + " alpha " + std::to_string(a.x) + " " + std::to_string(a.y),
                        {{a.x, a.y}},

@@ -2,8 +2,9 @@
 // width: the sphere is cut where pilot samples lie, and the density integrated adaptively over
 // each cell.
 //
-// Coordinates: hemisphere, t = 1 - |z| in [0, 1] (computed from x and y, so that it keeps its
-// digits near the pole) and azimuth. The map preserves area: d omega = dt dphi.
+// Coordinates: t = y in [-1, 1] and phi, the angle about the y axis from x towards z. The map
+// preserves area (d omega = dt dphi), is smooth around the normal, makes the horizon a line of
+// constant phi, and lets sheets of light from brushed surfaces lie along an axis.
 #pragma once
 
 #include <array>
@@ -35,12 +36,16 @@ class SphereChiSquare {
         Rng pilot_rng(hash64(seed) ^ 1), rng(hash64(seed) ^ 2);
         std::array<std::vector<Point>, 2> pilot;
         for (int i = 0; i < kPilot; ++i) {
-            Vec3 const w = sample_(pilot_rng.next3());
+            // Some choose by a tiny u.z, so that what is rarely chosen is not overlooked.
+            Vec3 u = pilot_rng.next3();
+            if (i % 8 == 0) u.z *= 1e-7f;
+            Vec3 const w = sample_(u);
             if (w != Vec3(0)) pilot[w.z < 0].push_back(point(w));
         }
         for (int side = 0; side < 2; ++side)
             roots_[size_t(side)] =
-                build(Box{side, 0, 1, -kPiD, kPiD}, pilot[size_t(side)], kPilot / kBins);
+                build(side == 0 ? Box{-1, 1, 0, kPiD} : Box{-1, 1, -kPiD, 0}, pilot[size_t(side)],
+                      kPilot / kBins);
 
         std::vector<double> observed(integrals_.size());
         double hits = 0;
@@ -62,13 +67,13 @@ class SphereChiSquare {
 
   private:
     static constexpr double kPiD = 3.14159265358979323846;
-    static constexpr int kPilot = 1 << 13, kBins = 1 << 7;
+    static constexpr double kInside = 1 - 1e-9;
+    static constexpr int kPilot = 1 << 14, kBins = 1 << 7;
 
     struct Point {
         double t, phi;
     };
     struct Box {
-        int side;
         double t0, t1, phi0, phi1;
         double area() const { return (t1 - t0) * (phi1 - phi0); }
     };
@@ -79,10 +84,7 @@ class SphereChiSquare {
         int bin = -1;
     };
 
-    static Point point(Vec3 const& w) {
-        double const x = w.x, y = w.y, z = std::abs(double(w.z));
-        return {(x * x + y * y) / (1 + z), std::atan2(y, x)};
-    }
+    static Point point(Vec3 const& w) { return {w.y, std::atan2(double(w.z), double(w.x))}; }
 
     /// Cells below `bin_size` pilot samples become one bin, but are cut on (as cells of
     /// integration) so that each holds few samples.
@@ -142,13 +144,46 @@ class SphereChiSquare {
         return nodes_[size_t(n)].bin;
     }
 
-    double integrate_cell(Box const& box, std::vector<Point>& points) {
-        if (points.size() <= 16) return integrate(box, rule(box), 0);
+    /// Wraps the points first, so that what is integrated has the size of what is there; the
+    /// space around them goes in strips.
+    double integrate_cell(Box box, std::vector<Point>& points) {
+        if (points.size() < 2) return integrate(box, rule(box), 0);
+        double around = wrap(box, points);
+        if (points.size() <= 8) return around + integrate(box, rule(box), 0);
         auto const [node, below, above] = cut(box, points);
         std::vector<Point> lower, upper;
         partition(node, points, lower, upper);
-        if (lower.empty() || upper.empty()) return integrate(box, rule(box), 0);
-        return integrate_cell(below, lower) + integrate_cell(above, upper);
+        if (lower.empty() || upper.empty()) return around + integrate(box, rule(box), 0);
+        around += integrate_cell(below, lower);
+        return around + integrate_cell(above, upper);
+    }
+
+    /// Shrinks `box` around the points with a margin; the integral over what is cut off.
+    double wrap(Box& box, std::vector<Point> const& points) {
+        auto [t_min, t_max] = std::minmax_element(
+            points.begin(), points.end(), [](Point a, Point b) { return a.t < b.t; });
+        auto [phi_min, phi_max] = std::minmax_element(
+            points.begin(), points.end(), [](Point a, Point b) { return a.phi < b.phi; });
+        double const dt = (t_max->t - t_min->t) / 2, dphi = (phi_max->phi - phi_min->phi) / 2;
+        Box const inner{std::max(box.t0, t_min->t - dt),
+                        std::min(box.t1, t_max->t + dt), std::max(box.phi0, phi_min->phi - dphi),
+                        std::min(box.phi1, phi_max->phi + dphi)};
+        bool const t_first = (inner.t1 - inner.t0) * (box.phi1 - box.phi0) <
+                             (inner.phi1 - inner.phi0) * (box.t1 - box.t0);
+        double sum = 0;
+        for (int pass = 0; pass < 2; ++pass) {
+            Box low = box, high = box;
+            if ((pass == 0) == t_first) {
+                low.t1 = box.t0 = inner.t0;
+                high.t0 = box.t1 = inner.t1;
+            } else {
+                low.phi1 = box.phi0 = inner.phi0;
+                high.phi0 = box.phi1 = inner.phi1;
+            }
+            for (Box const& strip : {low, high})
+                if (strip.area() > 0) sum += integrate(strip, rule(strip), 0);
+        }
+        return sum;
     }
 
     /// Gauss-Lobatto, 5 x 5: its nodes on the border see a peak that lies against it.
@@ -157,31 +192,35 @@ class SphereChiSquare {
         static constexpr std::array w{0.05, 49 / 180.0, 16 / 45.0, 49 / 180.0, 0.05};
         double sum = 0;
         for (size_t i = 0; i < 5; ++i) {
-            // The horizon itself belongs to neither side.
-            double const t =
-                std::min((b.t0 + b.t1 + x[i] * (b.t1 - b.t0)) / 2, 1 - 1e-8);
-            double const r = std::sqrt(t * (2 - t)), z = b.side ? t - 1 : 1 - t;
+            double const t = (b.t0 + b.t1 + x[i] * (b.t1 - b.t0)) / 2 * kInside;
+            double const r = std::sqrt(1 - t * t);
             for (size_t j = 0; j < 5; ++j) {
                 double const phi = (b.phi0 + b.phi1 + x[j] * (b.phi1 - b.phi0)) / 2;
-                sum += w[i] * w[j] *
-                       density_({float(r * std::cos(phi)), float(r * std::sin(phi)), float(z)});
+                sum += w[i] * w[j] * density_(direction(t, r, phi));
             }
         }
         evaluations_ += 25;
         return sum * b.area();
     }
 
+    /// Moves the horizon, which belongs to neither side, to the side that phi comes from.
+    static Vec3 direction(double t, double r, double phi) {
+        double const inside = std::copysign(
+            std::min(std::max(std::abs(phi), 1 - kInside), kPiD * kInside), phi);
+        return {float(r * std::cos(inside)), float(t), float(r * std::sin(inside))};
+    }
+
     double integrate(Box const& b, double whole, int depth) {
         double const t = (b.t0 + b.t1) / 2, phi = (b.phi0 + b.phi1) / 2;
-        std::array<Box, 4> const parts{Box{b.side, b.t0, t, b.phi0, phi},
-                                       Box{b.side, t, b.t1, b.phi0, phi},
-                                       Box{b.side, b.t0, t, phi, b.phi1},
-                                       Box{b.side, t, b.t1, phi, b.phi1}};
+        std::array<Box, 4> const parts{Box{b.t0, t, b.phi0, phi},
+                                       Box{t, b.t1, b.phi0, phi},
+                                       Box{b.t0, t, phi, b.phi1},
+                                       Box{t, b.t1, phi, b.phi1}};
         std::array<double, 4> values{};
         double sum = 0;
         for (size_t i = 0; i < 4; ++i) sum += values[i] = rule(parts[i]);
         // Rounding of the directions makes narrow densities rough; 1e-6 of all is beyond need.
-        if (std::abs(sum - whole) < 2e-6 || depth == 16) return sum;
+        if ((depth >= MD && std::abs(sum - whole) < TOL) || depth == 16) return sum;
         sum = 0;
         for (size_t i = 0; i < 4; ++i) sum += integrate(parts[i], values[i], depth + 1);
         return sum;
