@@ -38,7 +38,7 @@ bench: ## Run the benchmarks; figures go to build/bench.json
 	@$(SETUP) build test
 	cmake --preset release
 	cmake --build --preset release --target weft_bench
-	build/release/weft_bench --benchmark_out=build/bench.json --benchmark_out_format=json
+	build/release/weft_bench build/bench.json
 
 docs: ## Regenerate docs/reference from the schemas
 docs: weft

@@ -49,8 +49,7 @@ DielectricAlbedo integrate(float cos_o, float alpha, float eta) {
         if (!(fresnel < 1)) continue;
         Vec3 const t = refract(wo, m, cos_m, cos_t, eta);
         if (t.z < 0) {
-            transmitted +=
-                (1 - fresnel) * shadowing_across(c, sigma_o, -t.z, d.projected_area(t));
+            transmitted += (1 - fresnel) * shadowing_across(c, sigma_o, -t.z, d.projected_area(t));
         }
     }
     return {float(reflected / kSamples), float(transmitted / kSamples)};
@@ -82,9 +81,9 @@ void write_tables(char const* name) {
     std::printf("inline constexpr uint16_t %s_reflection[] = {\n", name);
     for (int a = 0; a < alphas; ++a)
         for (int c = 0; c < cosines; ++c)
-            out.value(integrate<Distribution>(cosine_at(node(c, cosines)),
-                                              alpha_at(node(a, alphas)), 0)
-                          .reflected);
+            out.value(
+                integrate<Distribution>(cosine_at(node(c, cosines)), alpha_at(node(a, alphas)), 0)
+                    .reflected);
     out.flush();
     std::printf("};\ninline constexpr uint16_t %s_dielectric[] = {\n", name);
     for (int leaving = 0; leaving < 2; ++leaving)

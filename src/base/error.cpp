@@ -36,7 +36,10 @@ int edit_distance(std::string_view a, std::string_view b) {
 std::string nearest_name(std::string_view name, std::span<std::string const> candidates) {
     int best = std::max(2, int(name.size()) / 3) + 1;
     std::string nearest;
+    constexpr size_t longest = 100; // nobody means a longer name, and the search is quadratic
+    if (name.size() > longest) return nearest;
     for (std::string const& c : candidates) {
+        if (c.size() > longest) continue;
         int const d = edit_distance(name, c);
         if (d < best && d < int(std::max(name.size(), c.size()))) {
             best = d;
@@ -49,8 +52,11 @@ std::string nearest_name(std::string_view name, std::span<std::string const> can
 std::string suggestion(std::string_view name, std::span<std::string const> candidates) {
     if (std::string const near = nearest_name(name, candidates); !near.empty())
         return " (did you mean '" + near + "'?)";
+    constexpr size_t most = 20;
     std::string list;
-    for (std::string const& c : candidates) list += (list.empty() ? "" : ", ") + c;
+    for (std::string const& c : candidates.first(std::min(most, candidates.size())))
+        list += (list.empty() ? "" : ", ") + c.substr(0, 100);
+    if (candidates.size() > most) list += ", ...";
     return list.empty() ? "" : "; known: " + list;
 }
 

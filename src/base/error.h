@@ -33,7 +33,7 @@ class InputError : public std::runtime_error {
 /// enough to be meant (further than a third of the length, at least 2 edits).
 std::string nearest_name(std::string_view name, std::span<std::string const> candidates);
 
-/// " (did you mean 'x'?)" or, where nothing is near, "; known: a, b, c".
+/// " (did you mean 'x'?)" or, where nothing is near, "; known: a, b, c" with at most 20 names.
 std::string suggestion(std::string_view name, std::span<std::string const> candidates);
 
 } // namespace weft

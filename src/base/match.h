@@ -2,6 +2,7 @@
 // through a table of function pointers that the optimiser cannot see into.
 #pragma once
 
+#include <cstddef>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -9,9 +10,9 @@
 namespace weft {
 
 /// Calls `f` with the alternative that `v` holds; all arms must return one type.
-template <class Variant, class F, size_t I = 0>
+template <class Variant, class F, std::size_t I = 0>
 [[gnu::always_inline]] inline decltype(auto) match(Variant&& v, F&& f) {
-    constexpr size_t n = std::variant_size_v<std::remove_cvref_t<Variant>>;
+    constexpr std::size_t n = std::variant_size_v<std::remove_cvref_t<Variant>>;
     if constexpr (I + 1 == n) {
         return f(*std::get_if<I>(&v));
     } else {
@@ -31,9 +32,10 @@ Overloaded(F...) -> Overloaded<F...>;
 /// A list of types to write templates over: for_each_type<Variant>([]<class T>() {...}).
 template <class Variant, class F>
 constexpr void for_each_type(F&& f) {
-    [&]<size_t... I>(std::index_sequence<I...>) {
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
         (f.template operator()<std::variant_alternative_t<I, Variant>>(), ...);
-    }(std::make_index_sequence<std::variant_size_v<Variant>>{});
+    }
+    (std::make_index_sequence<std::variant_size_v<Variant>>{});
 }
 
 } // namespace weft

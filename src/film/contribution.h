@@ -19,7 +19,8 @@ class PathSignature {
         ++length_;
     }
     uint32_t length() const { return length_; } ///< all bounces, those beyond the 16th included
-    Bounce operator[](uint32_t i) const { return Bounce((bits_ >> (4 * i)) & 15); }
+    /// None beyond the end and beyond the 16th.
+    Bounce operator[](uint32_t i) const { return i < 16 ? Bounce((bits_ >> (4 * i)) & 15) : Bounce::None; }
 
   private:
     uint64_t bits_ = 0;

@@ -29,7 +29,10 @@ void direct(world::World const& world, scene::Strategy strategy, PathState const
         shadow.t_max = (light.distance - moved) * (1 - 4 * std::numeric_limits<float>::epsilon()) - light.p_error;
         if (!(shadow.t_max > 0)) return;
     }
-    Color const through = transmittance(world, shadow, path.media);
+    media::MediumStack media = path.media;
+    bool const crosses = point.surface && dot(light.wi, point.surface->ng) * dot(point.wo, point.surface->ng) < 0;
+    if (crosses && world.has_media()) cross_boundary(world, *point.surface, light.wi, media);
+    Color const through = transmittance(world, shadow, media);
     if (is_black(through)) return;
     bool const combine = strategy == scene::Strategy::mis && !light.delta;
     float const weight = combine ? power_heuristic(light.pdf, value.pdf) : 1;

@@ -28,7 +28,8 @@ Color transmittance(world::World const& world, world::Ray ray, media::MediumStac
         if (medium >= 0) through *= media::transmittance(world.medium(medium), std::min(hit.t, ray.t_max));
         if (!hit || is_black(through)) return through;
         shading::SurfacePoint const point = world.surface(ray, hit);
-        cross_boundary(world, point, ray.direction, stack);
+        // Other surfaces are passed where their opacity leaves a hole: that leads into nothing.
+        if (world.object(hit.object).is_null) cross_boundary(world, point, ray.direction, stack);
         Vec3 const origin = shading::offset_origin(point, ray.direction);
         ray.t_max -= dot(origin - ray.origin, ray.direction);
         ray.origin = origin;

@@ -71,9 +71,11 @@ void continue_from(world::World const& world, PathState& path, shading::SurfaceP
     path.ray.t_min = world::Ray().t_min;
 }
 
-/// Ends paths that carry little, and strengthens those that survive: the mean stays.
+/// Ends paths that carry little, and strengthens those that survive: the mean stays. The root
+/// makes it gentle: ending paths in proportion to what they carry costs more noise than it saves
+/// time.
 bool survives_roulette(PathState& path, float u) {
-    float const survival = std::min(1.f, max_component(path.throughput) * path.eta_scale);
+    float const survival = std::min(1.f, std::sqrt(max_component(path.throughput) * path.eta_scale));
     if (u >= survival) return false;
     path.throughput *= 1 / survival;
     return true;

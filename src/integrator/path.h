@@ -11,7 +11,7 @@ namespace weft::integrator {
 struct PathSettings {
     scene::Strategy strategy = scene::Strategy::mis;
     uint32_t depth = 16;         ///< vertices seen along a path; the first hit is 1
-    uint32_t roulette_depth = 2; ///< vertices that Russian roulette leaves alone
+    uint32_t roulette_depth = 3; ///< vertices that Russian roulette leaves alone
 };
 
 /// Follows one path from the camera and hands every contribution to `sink`. `media`: what the

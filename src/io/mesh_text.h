@@ -18,12 +18,8 @@ SourceLocation locate(std::string_view text, size_t offset, std::string const& n
 /// 'token' for a message: at most 40 bytes, what is not printable ASCII as \xNN.
 std::string quoted(std::string_view token);
 
-constexpr bool is_blank(char c) {
-    return c == ' ' || c == '\t' || c == '\v' || c == '\f';
-}
-constexpr bool is_line_end(char c) {
-    return c == '\n' || c == '\r';
-}
+constexpr bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
+constexpr bool is_line_end(char c) { return c == '\n' || c == '\r'; }
 
 /// The number that starts at `p`; nullptr where there is none, else one past its last character.
 /// A decimal too small for a float gives 0, one too large gives infinity.

@@ -3,18 +3,35 @@
 #include <algorithm>
 #include <array>
 
+#include "io/scene_builder.h"
+
 namespace weft::io {
 
-std::string_view child_name(XmlElement const& child) {
-    std::string_view const name = child.get("name");
-    return name.empty() ? std::string_view(child.tag) : name;
+namespace {
+
+/// Attributes that every object may have beside its parameters.
+std::array<std::string, 3> const kReserved{"type", "id", "name"};
+
+bool contains(std::span<std::string const> names, std::string_view name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+} // namespace
+
 bool is_property_tag(std::string_view tag) {
-    static constexpr std::array<std::string_view, 6> tags{"integer", "float", "string",
-                                                          "boolean", "color", "vector"};
-    return std::find(tags.begin(), tags.end(), tag) != tags.end();
+    static std::array<std::string, 6> const tags{"integer", "float", "string",
+                                                 "boolean", "color", "vector"};
+    return contains(tags, tag);
 }
+
+std::span<std::string const> definition_tags() {
+    static std::array<std::string, 11> const tags{"bsdf",   "texture",  "shape",    "instance",
+                                                  "light",  "emission", "volume",   "medium",
+                                                  "camera", "image",    "transform"};
+    return tags;
+}
+
+bool is_definition_tag(std::string_view tag) { return contains(definition_tags(), tag); }
 
 std::string element_title(XmlElement const& element) {
     std::string title = "<" + element.tag;
@@ -22,14 +39,25 @@ std::string element_title(XmlElement const& element) {
     return title + ">";
 }
 
-XmlAttribute const& property_value(XmlElement const& child) {
+SourceLocation const& location_of(XmlElement const& element, std::string_view name) {
+    if (XmlAttribute const* a = element.find(name)) return a->where;
+    for (auto const& child : element.children)
+        if (child->get("name") == name) return child->where;
+    return element.where;
+}
+
+std::string ObjectReader::title_of(std::string_view name) const {
+    return "'" + std::string(name) + "' of " + element_title(element_);
+}
+
+XmlAttribute const& ObjectReader::property_value(XmlElement const& child) const {
     XmlAttribute const* value = child.find("value");
-    if (!value)
+    if (!value || !child.find("name"))
         throw InputError(child.where, "<" + child.tag + "> expects name=\"...\" value=\"...\"");
     for (XmlAttribute const& a : child.attributes)
         if (a.name != "name" && a.name != "value")
-            throw InputError(a.where, "unknown parameter '" + a.name + "' of <" + child.tag +
-                                          ">; known: name, value");
+            throw InputError(a.where, "unknown parameter " + in_quotes(a.name) + " of <" +
+                                          child.tag + ">; known: name, value");
     if (!child.children.empty())
         throw InputError(child.children.front()->where, "<" + child.tag +
                                                             "> has no child tags, found " +
@@ -37,15 +65,8 @@ XmlAttribute const& property_value(XmlElement const& child) {
     return *value;
 }
 
-void check_range(double value, schema::Attr const& attr, std::string_view name,
-                 SourceLocation const& where, std::string const& found) {
-    if (value >= attr.min && value <= attr.max) return;
-    bool const low = std::isfinite(attr.min), high = std::isfinite(attr.max);
-    std::string range = low ? "at least " + schema::number_text(attr.min) : "";
-    if (high)
-        range += (low ? " and " : "") + std::string("at most ") + schema::number_text(attr.max);
-    throw InputError(where, "'" + std::string(name) + "' expects a value of " + range +
-                                ", found '" + found + "'");
+bool ObjectReader::is_definition(XmlElement const& child) const {
+    return definitions_ && !child.get("id").empty() && is_definition_tag(child.tag);
 }
 
 bool ObjectReader::matches(XmlElement const& child, std::string_view name,
@@ -53,37 +74,62 @@ bool ObjectReader::matches(XmlElement const& child, std::string_view name,
     std::string_view const given = child.get("name");
     if (!given.empty()) return given == name;
     // A bare shape stands for an instance of it, unless it is there to be referred to.
-    if (child.tag == "shape" && category == "instance") return !(definitions_ && child.find("id"));
+    if (child.tag == "shape" && category == "instance") return !is_definition(child);
     if (child.tag != "ref") return child.tag == name;
-    return name == category || name == "texture"; // checked for its category when resolved
-}
-
-void ObjectReader::twice(std::string_view name, SourceLocation const& where) const {
-    throw InputError(where, "'" + std::string(name) + "' of " + element_title(element_) +
-                                " is given twice");
+    // What a nameless reference fills is told by what it refers to.
+    std::string const& target = builder_.resolve(child).tag;
+    return target == name || (target == "shape" && category == "instance");
 }
 
 void ObjectReader::missing(std::string_view name, schema::Attr const& attr, std::string_view kind,
                            std::string_view category) const {
-    std::string const what = category.empty() ? std::string(kind) + " '" + std::string(name) + "'"
-                                              : "a <" + std::string(category) + ">";
+    std::string what = "'" + std::string(name) + "' (" + std::string(kind) + ")";
+    if (!category.empty())
+        what = (category.front() == 'i' || category.front() == 'e' ? "an <" : "a <") +
+               std::string(category) + ">";
     throw InputError(element_.where, element_title(element_) + " expects " + what +
                                          ", found none: " + std::string(attr.help));
 }
 
-void ObjectReader::finish() const {
-    for (XmlAttribute const& a : element_.attributes)
-        if (std::find(known_.begin(), known_.end(), a.name) == known_.end())
-            throw InputError(a.where, "unknown parameter '" + a.name + "' of " +
-                                          element_title(element_) + suggestion(a.name, known_));
-    for (size_t i = 0; i < element_.children.size(); ++i) {
-        XmlElement const& child = *element_.children[i];
-        if (child_used_[i]) continue;
-        if (definitions_ && child.find("id") && !is_property_tag(child.tag)) continue;
-        std::string const name(child_name(child));
-        throw InputError(child.where, "unknown parameter '" + name + "' of " +
-                                          element_title(element_) + suggestion(name, known_));
+void ObjectReader::finish(std::string_view type) const {
+    for (XmlAttribute const& a : element_.attributes) {
+        if (a.name == "type" && a.value != (type.empty() ? "default" : type))
+            throw InputError(a.where, "unknown type " + in_quotes(a.value) + " of <" +
+                                          element_.tag + ">; it has no types");
+        if (contains(kReserved, a.name) || contains(known_, a.name)) continue;
+        std::vector<std::string> names(known_);
+        names.insert(names.end(), kReserved.begin(), kReserved.end());
+        throw InputError(a.where, "unknown parameter " + in_quotes(a.name) + " of " +
+                                      element_title(element_) + suggestion(a.name, names));
     }
+    for (size_t i = 0; i < element_.children.size(); ++i)
+        if (!child_used_[i] && !is_definition(*element_.children[i]))
+            unknown_child(*element_.children[i]);
+}
+
+void ObjectReader::unknown_child(XmlElement const& child) const {
+    std::string const title = element_title(element_), name(child.get("name"));
+    if (!name.empty()) {
+        if (contains(kReserved, name))
+            throw InputError(child.where, title_of(name) + " must be an attribute");
+        throw InputError(child.where, "unknown parameter " + in_quotes(name) + " of " + title +
+                                          suggestion(name, known_));
+    }
+    if (is_property_tag(child.tag)) property_value(child);
+    std::vector<std::string> tags(known_);
+    if (definitions_) {
+        auto const more = definition_tags();
+        if (contains(more, child.tag))
+            throw InputError(child.where, element_title(child) + " in " + title +
+                                              " expects an id: nothing can refer to it");
+        tags.insert(tags.end(), more.begin(), more.end());
+    }
+    if (child.tag == "ref")
+        throw InputError(child.where, title + " has no place for the " +
+                                          element_title(builder_.resolve(child)) +
+                                          " that <ref> refers to");
+    throw InputError(child.where,
+                     "unknown tag <" + child.tag + "> in " + title + suggestion(child.tag, tags));
 }
 
 } // namespace weft::io

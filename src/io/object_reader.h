@@ -3,6 +3,7 @@
 // the attribute or child tag of its name. What is left over in the end is an error.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,23 +14,21 @@ namespace weft::io {
 
 class SceneBuilder;
 
-/// The name under which a child fills a parameter: its `name`, else its tag.
-std::string_view child_name(XmlElement const& child);
 /// Whether the tag is one of integer, float, string, boolean, color, vector.
 bool is_property_tag(std::string_view tag);
+/// The tags of objects that may stand beside the parameters of a scene or test, and at the root
+/// of a file, for use by reference.
+std::span<std::string const> definition_tags();
+bool is_definition_tag(std::string_view tag);
 /// "<camera type="thinlens">", for messages.
 std::string element_title(XmlElement const& element);
-/// The value of a property tag; throws where it has none.
-XmlAttribute const& property_value(XmlElement const& child);
-/// Throws where the number `value` of parameter `name` lies outside of its range.
-void check_range(double value, schema::Attr const& attr, std::string_view name,
-                 SourceLocation const& where, std::string const& found);
+/// Where the parameter `name` of an object stands; the object's own place where it is not given.
+SourceLocation const& location_of(XmlElement const& element, std::string_view name);
 
 class ObjectReader {
-public:
+  public:
     ObjectReader(SceneBuilder& builder, XmlElement const& element)
-        : builder_(builder), element_(element),
-          child_used_(element.children.size()), known_{"type", "id", "name"} {}
+        : builder_(builder), element_(element), child_used_(element.children.size()) {}
 
     template <class T>
     void operator()(std::string_view name, T& value, schema::Attr const& attr);
@@ -38,27 +37,35 @@ public:
         member.describe(*this);
     }
 
-    /// Children of these tags with an id are definitions for use by reference, not parameters.
+    /// Children with an id are definitions for use by reference, not parameters.
     void allow_definitions() { definitions_ = true; }
-    /// Throws at the first attribute or child that no parameter took.
-    void finish() const;
+    /// Throws at the first attribute or child that no parameter took. `type` is the only one that
+    /// the object may name; "" where there is none (lightwave calls that "default").
+    void finish(std::string_view type) const;
 
-private:
+  private:
     template <class T>
     void read_text(std::string_view name, XmlAttribute const& from, T& value,
                    schema::Attr const& attr);
     template <class T>
     void read_child(std::string_view name, XmlElement const& child, T& value,
                     schema::Attr const& attr);
+    template <class T>
+    void read_texture(std::string_view name, XmlElement const& child, T& value,
+                      schema::Attr const& attr);
     bool matches(XmlElement const& child, std::string_view name, std::string_view category) const;
-    [[noreturn]] void twice(std::string_view name, SourceLocation const& where) const;
+    bool is_definition(XmlElement const& child) const;
+    /// The attribute that holds a property tag's value. Throws where the tag is malformed.
+    XmlAttribute const& property_value(XmlElement const& child) const;
+    std::string title_of(std::string_view name) const;
+    [[noreturn]] void unknown_child(XmlElement const& child) const;
     [[noreturn]] void missing(std::string_view name, schema::Attr const& attr,
                               std::string_view kind, std::string_view category) const;
 
     SceneBuilder& builder_;
     XmlElement const& element_;
     std::vector<bool> child_used_;
-    std::vector<std::string> known_;
+    std::vector<std::string> known_; ///< the names of the parameters so far
     bool definitions_ = false;
 };
 

@@ -22,22 +22,10 @@ inline constexpr bool is_input = false;
 template <class T>
 inline constexpr bool is_input<schema::Input<T>> = true;
 
-inline void check_value(float v, auto&& check) {
-    check(v);
-}
-inline void check_value(int v, auto&& check) {
-    check(v);
-}
-inline void check_value(Color const& c, auto&& check) {
-    for (float v : {c.r, c.g, c.b}) check(v);
-}
 template <class T>
-void check_value(schema::Input<T> const& v, auto&& check) {
-    check_value(v.value, check);
+constexpr std::string_view category_of(T const&) {
+    return "";
 }
-template <class T>
-void check_value(T const&, auto&&) {}
-
 template <class Kind>
 constexpr std::string_view category_of(schema::Id<Kind> const&) {
     return Kind::category;
@@ -46,9 +34,37 @@ template <class Kind>
 constexpr std::string_view category_of(std::vector<schema::Id<Kind>> const&) {
     return Kind::category;
 }
+
+/// Whether every number of `v` lies in the parameter's range.
+inline bool in_range(double v, schema::Attr const& attr) { return v >= attr.min && v <= attr.max; }
+inline bool in_range(Color const& c, schema::Attr const& attr) {
+    return in_range(c.r, attr) && in_range(c.g, attr) && in_range(c.b, attr);
+}
 template <class T>
-constexpr std::string_view category_of(T const&) {
-    return "";
+bool in_range(schema::Input<T> const& v, schema::Attr const& attr) {
+    return in_range(v.value, attr);
+}
+
+/// "at least 0 and at most 1"
+inline std::string range_phrase(schema::Attr const& attr) {
+    std::string const low = "at least " + schema::number_text(attr.min);
+    std::string const high = "at most " + schema::number_text(attr.max);
+    if (!std::isfinite(attr.max)) return low;
+    return std::isfinite(attr.min) ? low + " and " + high : high;
+}
+
+/// What a parameter expects, and for a choice also which of them may have been meant.
+template <class T>
+std::pair<std::string, std::string> expectation(T const& value, std::string_view found) {
+    if constexpr (schema::Choice<T>) {
+        auto const names = choices(value);
+        std::vector<std::string> const known(names.begin(), names.end());
+        std::string expected = "one of";
+        for (auto const& c : known) expected += (&c == &known.front() ? " " : ", ") + c;
+        return {expected, nearest_name(found, known).empty() ? "" : suggestion(found, known)};
+    } else {
+        return {std::string(schema::TextForm<T>::expected), ""};
+    }
 }
 
 } // namespace detail
@@ -65,12 +81,8 @@ void ObjectReader::operator()(std::string_view name, T& value, schema::Attr cons
     for (size_t i = 0; i < element_.children.size(); ++i) {
         XmlElement const& child = *element_.children[i];
         if (child_used_[i] || !matches(child, name, category)) continue;
-        if (child.tag == "ref" && child.get("name").empty()) {
-            std::string_view const target = builder_.resolve(child).tag;
-            bool const bare_shape = category == "instance" && target == "shape";
-            if (target != (category.empty() ? name : category) && !bare_shape) continue;
-        }
-        if (found && !detail::is_list<T>) twice(name, child.where);
+        if (found && !detail::is_list<T>)
+            throw InputError(child.where, title_of(name) + " is given twice");
         read_child(name, child, value, attr);
         child_used_[i] = found = true;
     }
@@ -82,26 +94,20 @@ void ObjectReader::read_text(std::string_view name, XmlAttribute const& from, T&
                              schema::Attr const& attr) {
     if constexpr (requires { schema::TextForm<T>::read(std::string_view(), value); }) {
         if (!schema::TextForm<T>::read(from.value, value)) {
-            std::string expected(schema::TextForm<T>::expected), hint;
-            if constexpr (schema::Choice<T>) {
-                auto const names = choices(value);
-                std::vector<std::string> const known(names.begin(), names.end());
-                expected = "one of";
-                for (auto const& c : known) expected += (&c == &known.front() ? " " : ", ") + c;
-                if (auto const near = nearest_name(from.value, known); !near.empty())
-                    hint = suggestion(from.value, known);
-            }
-            throw InputError(from.where, "'" + std::string(name) + "' of " +
-                                             element_title(element_) + " expects " + expected +
-                                             ", found '" + from.value + "'" + hint);
+            auto const [expected, hint] = detail::expectation(value, from.value);
+            throw InputError(from.where, title_of(name) + " expects " + expected + ", found " +
+                                             in_quotes(from.value) + hint);
         }
-        detail::check_value(value,
-                            [&](double v) { check_range(v, attr, name, from.where, from.value); });
+        if constexpr (std::is_same_v<T, Affined>) check_invertible(value, from.where);
+        if constexpr (requires { detail::in_range(value, attr); })
+            if (!detail::in_range(value, attr))
+                throw InputError(from.where, title_of(name) + " expects a value of " +
+                                                 detail::range_phrase(attr) + ", found " +
+                                                 in_quotes(from.value));
     } else {
-        throw InputError(from.where, "'" + std::string(name) + "' of " + element_title(element_) +
-                                         " expects a child tag <" +
-                                         std::string(detail::category_of(value)) + ">, found '" +
-                                         from.value + "'");
+        throw InputError(from.where, title_of(name) + " expects a child tag <" +
+                                         std::string(detail::category_of(value)) + ">, found " +
+                                         in_quotes(from.value));
     }
 }
 
@@ -110,9 +116,7 @@ void ObjectReader::read_child(std::string_view name, XmlElement const& child, T&
                               schema::Attr const& attr) {
     if (is_property_tag(child.tag)) {
         read_text(name, property_value(child), value, attr);
-        return;
-    }
-    if constexpr (detail::is_id<T>) {
+    } else if constexpr (detail::is_id<T>) {
         value = [&]<class Kind>(schema::Id<Kind>) { return builder_.object<Kind>(child); }(value);
     } else if constexpr (detail::is_list<T>) {
         [&]<class Kind>(std::vector<schema::Id<Kind>>& list) {
@@ -125,32 +129,49 @@ void ObjectReader::read_child(std::string_view name, XmlElement const& child, T&
         value = read_transform(target);
     } else if constexpr (detail::is_input<T> || std::is_same_v<T, Color> ||
                          std::is_same_v<T, float>) {
-        auto const texture = builder_.object<schema::TextureKind>(child);
-        Color const* constant = builder_.constant_texture(texture);
-        auto assign = [&](auto& to) {
-            if constexpr (std::is_same_v<std::remove_cvref_t<decltype(to)>, float>)
-                to = average(*constant);
-            else
-                to = *constant;
-        };
-        if constexpr (detail::is_input<T>) {
-            if (constant)
-                assign(value.value);
-            else
-                value.texture = texture;
-        } else {
-            if (!constant)
-                throw InputError(
-                    child.where,
-                    "'" + std::string(name) + "' of " + element_title(element_) +
-                        " cannot vary: expected a value or a constant texture, found " +
-                        element_title(builder_.resolve(child)));
-            assign(value);
-        }
+        read_texture(name, child, value, attr);
     } else {
-        throw InputError(child.where, "'" + std::string(name) + "' of " + element_title(element_) +
-                                          " expects " + std::string(schema::TextForm<T>::expected) +
-                                          ", found " + element_title(child));
+        throw InputError(child.where, title_of(name) + " expects " +
+                                          detail::expectation(value, "").first + ", found " +
+                                          element_title(child));
+    }
+}
+
+/// A parameter from a texture: a constant one is its value (for a number, the channels' mean);
+/// any other is kept as it is, where the parameter may vary.
+template <class T>
+void ObjectReader::read_texture(std::string_view name, XmlElement const& child, T& value,
+                                schema::Attr const& attr) {
+    auto const id = builder_.object<schema::TextureKind>(child);
+    scene::Texture const& texture = builder_.texture(id);
+    XmlElement const& element = builder_.resolve(child);
+    auto check = [&](Color const& c, std::string_view parameter) {
+        if (detail::in_range(c, attr)) return;
+        throw InputError(location_of(element, parameter),
+                         title_of(name) + " expects a value of " + detail::range_phrase(attr) +
+                             ", found '" + schema::TextForm<Color>::write(c) + "'");
+    };
+    if (auto const* checkerboard = std::get_if<scene::Checkerboard>(&texture)) {
+        check(checkerboard->color0, "color0");
+        check(checkerboard->color1, "color1");
+    }
+    auto const* constant = std::get_if<scene::ConstantTexture>(&texture);
+    if (constant) {
+        Color const& c = constant->value;
+        check(c, "value");
+        auto assign = Overloaded{[&](Color& to) { to = c; },
+                                 [&](float& to) { to = c == Color(c.r) ? c.r : average(c); }};
+        if constexpr (detail::is_input<T>)
+            assign(value.value);
+        else
+            assign(value);
+    } else if constexpr (detail::is_input<T>) {
+        value.texture = id;
+    } else {
+        throw InputError(child.where,
+                         title_of(name) +
+                             " cannot vary: expected a value or a constant texture, found " +
+                             element_title(element));
     }
 }
 
@@ -159,9 +180,10 @@ T SceneBuilder::read_struct(XmlElement const& element) {
     static_assert(schema::all_described<T>, "describe() leaves out a member of this type");
     T object{};
     ObjectReader reader(*this, element);
-    if constexpr (std::is_same_v<T, scene::SceneContents>) reader.allow_definitions();
+    if constexpr (std::is_same_v<T, scene::SceneContents> || std::is_same_v<T, scene::ImageTest>)
+        reader.allow_definitions();
     object.describe(reader);
-    reader.finish();
+    reader.finish(T::info.type);
     complete(object, element);
     return object;
 }
@@ -169,22 +191,21 @@ T SceneBuilder::read_struct(XmlElement const& element) {
 template <class Variant>
 Variant SceneBuilder::read_variant(XmlElement const& element) {
     std::vector<std::string> known;
-    std::string_view const type = element.get("type");
+    XmlAttribute const* type = element.find("type");
     Variant result;
     bool found = false;
     for_each_type<Variant>([&]<class T>() {
         known.emplace_back(T::info.type);
-        if (found || T::info.type != type) return;
+        if (found || !type || T::info.type != type->value) return;
         result = read_struct<T>(element);
         found = true;
     });
     if (found) return result;
-    XmlAttribute const* a = element.find("type");
-    if (!a)
+    if (!type)
         throw InputError(element.where,
                          "<" + element.tag + "> expects type=\"...\"" + suggestion("", known));
-    throw InputError(a->where, "unknown type '" + a->value + "' of <" + element.tag + ">" +
-                                   suggestion(a->value, known));
+    throw InputError(type->where, "unknown type " + in_quotes(type->value) + " of <" + element.tag +
+                                      ">" + suggestion(type->value, known));
 }
 
 template <class Kind>
@@ -200,7 +221,14 @@ schema::Id<Kind> SceneBuilder::object(XmlElement const& element) {
             throw InputError(element.where, element_title(target) + " contains itself");
         return {it->second};
     }
+    if (depth_ >= kMaxNesting)
+        throw InputError(element.where, "expected objects nested at most " +
+                                            std::to_string(kMaxNesting) +
+                                            " deep, found more by following references");
+    document_.used.insert(&target);
+    ++depth_;
     int32_t const index = add(Kind{}, target);
+    --depth_;
     read_[{&target, Kind::category}] = index;
     return {index};
 }

@@ -24,9 +24,7 @@ enum class Format : uint8_t { ascii, little_endian, big_endian };
 constexpr size_t size_of(Scalar s) {
     return std::array<size_t, 8>{1, 1, 2, 2, 4, 4, 4, 8}[size_t(s)];
 }
-constexpr bool is_integer(Scalar s) {
-    return s < Scalar::float32;
-}
+constexpr bool is_integer(Scalar s) { return s < Scalar::float32; }
 
 struct Property {
     std::string name;

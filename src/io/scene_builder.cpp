@@ -1,9 +1,10 @@
 #include "io/scene_builder.h"
 
+#include <algorithm>
 #include <filesystem>
 
-#include "io/object_reader_impl.h"
 #include "io/obj.h"
+#include "io/object_reader_impl.h"
 #include "io/ply.h"
 
 namespace weft::io {
@@ -15,8 +16,9 @@ void index_ids(Document& document) {
     while (!stack.empty()) {
         XmlElement const* e = stack.back();
         stack.pop_back();
-        if (XmlAttribute const* id = e->find("id"); id && e->tag != "ref") document.ids.emplace(id->value, e);
-        for (auto const& child : e->children) stack.push_back(child.get());
+        if (XmlAttribute const* id = e->find("id"); id && e->tag != "ref")
+            document.ids.emplace(id->value, e);
+        for (size_t i = e->children.size(); i-- > 0;) stack.push_back(e->children[i].get());
     }
 }
 
@@ -26,23 +28,26 @@ XmlElement const& SceneBuilder::resolve(XmlElement const& element) const {
     if (!id) throw InputError(element.where, "<ref> expects id=\"...\"");
     for (XmlAttribute const& a : element.attributes)
         if (a.name != "id" && a.name != "name")
-            throw InputError(a.where, "unknown parameter '" + a.name + "' of <ref>; known: id, name");
+            throw InputError(a.where, "unknown parameter " + in_quotes(a.name) +
+                                          " of <ref>; known: id, name");
+    if (!element.children.empty())
+        throw InputError(element.children.front()->where,
+                         "<ref> has no child tags, found " +
+                             element_title(*element.children.front()));
     auto const [first, last] = document_.ids.equal_range(id->value);
     if (first == last) {
         std::vector<std::string> known;
-        for (auto const& [name, target] : document_.ids)
-            if (known.empty() || known.back() != name) known.push_back(name);
-        throw InputError(id->where, "no object has the id '" + id->value + "'" + suggestion(id->value, known));
+        for (auto const& entry : document_.ids)
+            if (known.empty() || known.back() != entry.first) known.push_back(entry.first);
+        throw InputError(id->where, "no object has the id " + in_quotes(id->value) +
+                                        suggestion(id->value, known));
     }
     if (std::next(first) != last)
-        throw InputError(id->where, "the id '" + id->value + "' is ambiguous: it is given at " + to_string(first->second->where) +
-                                        " and at " + to_string(std::next(first)->second->where));
+        throw InputError(id->where, "the id " + in_quotes(id->value) +
+                                        " is ambiguous: it is given at " +
+                                        to_string(first->second->where) + " and at " +
+                                        to_string(std::next(first)->second->where));
     return *first->second;
-}
-
-Color const* SceneBuilder::constant_texture(schema::Id<schema::TextureKind> id) const {
-    auto const* constant = std::get_if<scene::ConstantTexture>(&scene_.textures[size_t(id.index)]);
-    return constant ? &constant->value : nullptr;
 }
 
 namespace {
@@ -51,6 +56,13 @@ template <class T>
 int32_t push(std::vector<T>& to, T value) {
     to.push_back(std::move(value));
     return int32_t(to.size()) - 1;
+}
+
+/// Where `shared` stands in `list`, added where it is new.
+template <class T>
+int32_t index_of(std::vector<T>& list, T const& shared) {
+    auto const it = std::find(list.begin(), list.end(), shared);
+    return it != list.end() ? int32_t(it - list.begin()) : push(list, shared);
 }
 
 /// Screen colours to linear ones. They are integers over 255 or 65535, so a table has them all.
@@ -74,15 +86,41 @@ void expect_type(XmlElement const& e, std::string const& type) {
     XmlAttribute const* a = e.find("type");
     if (!a) throw InputError(e.where, "<" + e.tag + "> expects type=\"" + type + "\"");
     if (a->value != type)
-        throw InputError(a->where, "unknown type '" + a->value + "' of <" + e.tag + ">" + suggestion(a->value, std::vector{type}));
+        throw InputError(a->where, "unknown type " + in_quotes(a->value) + " of <" + e.tag + ">" +
+                                       suggestion(a->value, std::vector{type}));
+}
+
+/// Calls `read`; what is wrong with the file is told with the place that names it.
+template <class Read>
+auto read_at(SourceLocation const& where, Read const& read) {
+    try {
+        return read();
+    } catch (InputError const& e) {
+        throw InputError(std::string(e.what()) + " (file named at " + to_string(where) + ")");
+    }
+}
+
+void check_direction(Vec3 const& direction, XmlElement const& element) {
+    if (!(length_squared(Vec3d(direction)) > 0))
+        throw InputError(location_of(element, "direction"),
+                         "'direction' of " + element_title(element) +
+                             " expects a direction, found a vector of length 0");
 }
 
 } // namespace
 
-int32_t SceneBuilder::add(schema::TextureKind, XmlElement const& e) { return push(scene_.textures, read_variant<scene::Texture>(e)); }
-int32_t SceneBuilder::add(scene::CameraKind, XmlElement const& e) { return push(scene_.cameras, read_variant<scene::Camera>(e)); }
-int32_t SceneBuilder::add(scene::MaterialKind, XmlElement const& e) { return push(scene_.materials, read_variant<scene::Material>(e)); }
-int32_t SceneBuilder::add(scene::ShapeKind, XmlElement const& e) { return push(scene_.shapes, read_variant<scene::Shape>(e)); }
+int32_t SceneBuilder::add(schema::TextureKind, XmlElement const& e) {
+    return push(scene_.textures, read_variant<scene::Texture>(e));
+}
+int32_t SceneBuilder::add(scene::CameraKind, XmlElement const& e) {
+    return push(scene_.cameras, read_variant<scene::Camera>(e));
+}
+int32_t SceneBuilder::add(scene::MaterialKind, XmlElement const& e) {
+    return push(scene_.materials, read_variant<scene::Material>(e));
+}
+int32_t SceneBuilder::add(scene::ShapeKind, XmlElement const& e) {
+    return push(scene_.shapes, read_variant<scene::Shape>(e));
+}
 
 int32_t SceneBuilder::add(scene::EmissionKind, XmlElement const& e) {
     expect_type(e, "lambertian");
@@ -91,7 +129,8 @@ int32_t SceneBuilder::add(scene::EmissionKind, XmlElement const& e) {
 
 int32_t SceneBuilder::add(scene::VolumeKind, XmlElement const& e) {
     if (e.get("type") == "grid")
-        throw InputError(e.where, "<volume type=\"grid\"> is not supported yet; expected type=\"constant\"");
+        throw InputError(e.where,
+                         "<volume type=\"grid\"> is not supported yet; expected type=\"constant\"");
     expect_type(e, "constant");
     return push(scene_.volumes, read_struct<scene::ConstantVolume>(e));
 }
@@ -119,8 +158,11 @@ int32_t SceneBuilder::add(scene::ImageKind, XmlElement const& e) {
 
 int32_t SceneBuilder::add(scene::InstanceKind, XmlElement const& e) {
     scene::Instance instance;
-    if (e.tag == "shape") instance.shape = object<scene::ShapeKind>(e);
-    else instance = read_struct<scene::Instance>(e);
+    if (e.tag == "shape")
+        instance.shape = object<scene::ShapeKind>(e);
+    else
+        instance = read_struct<scene::Instance>(e);
+    summaries_.push_back(summary(instance));
     scene_.instance_locations.push_back(e.where);
     scene_.instance_names.emplace_back(e.get("id"));
     return push(scene_.instances, std::move(instance));
@@ -132,65 +174,114 @@ int32_t SceneBuilder::add(scene::LightKind, XmlElement const& e) {
     return push(scene_.lights, std::move(light));
 }
 
-std::string SceneBuilder::find_file(scene::FileName const& file, XmlElement const& element) const {
-    fs::path const path = (fs::path(element.folder) / file.path).lexically_normal();
-    std::error_code error;
-    if (fs::is_regular_file(path, error)) return path.string();
-    SourceLocation where = element.where;
-    for (XmlAttribute const& a : element.attributes)
-        if (a.value == file.path) where = a.where;
-    for (auto const& child : element.children)
-        if (child->get("value") == file.path) where = child->where;
-    throw InputError(where, "expected a file at '" + path.string() + "', found " + (fs::is_directory(path, error) ? "a folder" : "none"));
+int32_t SceneBuilder::add(scene::IntegratorKind, XmlElement const& e) {
+    integrator_element = &e;
+    return 0;
 }
 
-int32_t SceneBuilder::load_image(scene::FileName const& file, scene::ColorSpace encoding, XmlElement const& element) {
-    std::string const path = find_file(file, element);
-    auto& image = document_.images[path + " " + schema::TextForm<scene::ColorSpace>::write(encoding)];
+int32_t SceneBuilder::load_image(std::string const& path, scene::ColorSpace encoding,
+                                 SourceLocation const& where) {
+    auto& image = document_.images[{path, encoding}];
     if (!image) {
-        image::Image loaded = image::read_image(path);
-        if (loaded.is_srgb_encoded && encoding != scene::ColorSpace::lin_rec709) decode(loaded, encoding);
+        image::Image loaded = read_at(where, [&] { return image::read_image(path); });
+        if (loaded.is_srgb_encoded && encoding != scene::ColorSpace::lin_rec709)
+            decode(loaded, encoding);
         image = std::make_shared<image::Image const>(std::move(loaded));
     }
-    for (size_t i = 0; i < scene_.images.size(); ++i)
-        if (scene_.images[i] == image) return int32_t(i);
-    return push(scene_.images, image);
+    return index_of(scene_.images, image);
 }
 
-void SceneBuilder::complete(scene::ImageTexture& texture, XmlElement const& element) {
-    texture.filename.resource = load_image(texture.filename, texture.linear ? scene::ColorSpace::lin_rec709 : texture.color_space, element);
-}
-
-void SceneBuilder::complete(scene::ThinLens& camera, XmlElement const& element) {
-    if (!camera.bokeh.path.empty()) camera.bokeh.resource = load_image(camera.bokeh, scene::ColorSpace::srgb_texture, element);
-}
-
-void SceneBuilder::complete(scene::MeshShape& shape, XmlElement const& element) {
-    std::string const path = find_file(shape.filename, element);
+int32_t SceneBuilder::load_mesh(std::string const& path, SourceLocation const& where) {
     auto& mesh = document_.meshes[path];
     if (!mesh) {
         std::string const ending = fs::path(path).extension().string();
         bool const obj = ending == ".obj" || ending == ".OBJ";
-        mesh = std::make_shared<scene::Mesh const>(obj ? read_obj(path) : read_ply(path));
+        mesh = std::make_shared<scene::Mesh const>(
+            read_at(where, [&] { return obj ? read_obj(path) : read_ply(path); }));
     }
-    for (size_t i = 0; i < scene_.meshes.size(); ++i)
-        if (scene_.meshes[i] == mesh) shape.filename.resource = int32_t(i);
-    if (shape.filename.resource < 0) shape.filename.resource = push(scene_.meshes, mesh);
+    return index_of(scene_.meshes, mesh);
+}
+
+void SceneBuilder::complete(scene::ImageTexture& texture, XmlElement const& element) {
+    SourceLocation const& where = location_of(element, "filename");
+    std::string const path = existing_file(element.folder, texture.filename.path, where);
+    if (files_ == Files::read)
+        texture.filename.resource = load_image(
+            path, texture.linear ? scene::ColorSpace::lin_rec709 : texture.color_space, where);
+}
+
+void SceneBuilder::complete(scene::ThinLens& camera, XmlElement const& element) {
+    if (camera.bokeh.path.empty()) return;
+    SourceLocation const& where = location_of(element, "bokeh");
+    std::string const path = existing_file(element.folder, camera.bokeh.path, where);
+    if (files_ == Files::read)
+        camera.bokeh.resource = load_image(path, scene::ColorSpace::srgb_texture, where);
+}
+
+void SceneBuilder::complete(scene::MeshShape& shape, XmlElement const& element) {
+    SourceLocation const& where = location_of(element, "filename");
+    std::string const path = existing_file(element.folder, shape.filename.path, where);
+    if (files_ == Files::read) shape.filename.resource = load_mesh(path, where);
 }
 
 void SceneBuilder::complete(scene::DirectionalLight& light, XmlElement const& element) {
-    if (length_squared(light.direction) == 0)
-        throw InputError(element.where, "'direction' expects a direction, found 0,0,0");
+    check_direction(light.direction, element);
 }
 
 void SceneBuilder::complete(scene::SpotLight& light, XmlElement const& element) {
-    if (length_squared(light.direction) == 0)
-        throw InputError(element.where, "'direction' expects a direction, found 0,0,0");
+    check_direction(light.direction, element);
 }
 
 void SceneBuilder::complete(scene::AreaLight& light, XmlElement const& element) {
-    if (!scene_.instances[size_t(light.instance.index)].emission)
-        throw InputError(element.where, "<light type=\"area\"> expects an instance with an <emission>, found one without");
+    if (!summaries_[size_t(light.instance.index)].emits)
+        throw InputError(element.where, element_title(element) +
+                                            " expects an instance with an <emission>, found one "
+                                            "without");
+}
+
+SceneBuilder::Summary SceneBuilder::summary(scene::Instance const& instance) const {
+    Summary total{1, bool(instance.emission)};
+    auto const* group = std::get_if<scene::Group>(&scene_.shapes[size_t(instance.shape.index)]);
+    if (!group) return total;
+    total.objects = 0;
+    for (scene::InstanceId member : group->instances) {
+        total.objects += summaries_[size_t(member.index)].objects;
+        total.emits |= summaries_[size_t(member.index)].emits;
+    }
+    return total;
+}
+
+/// Groups of groups multiply: a few lines can stand for more objects than any memory holds.
+void SceneBuilder::complete(scene::SceneContents& contents, XmlElement const& element) {
+    constexpr double most = 1e8;
+    double objects = 0;
+    auto add = [&](scene::InstanceId id) { objects += summaries_[size_t(id.index)].objects; };
+    for (scene::InstanceId id : contents.instances) add(id);
+    for (scene::LightId id : contents.lights)
+        if (auto const* area = std::get_if<scene::AreaLight>(&scene_.lights[size_t(id.index)]))
+            add(area->instance);
+    if (objects > most)
+        throw InputError(element.where, "<scene> expects at most " + schema::number_text(most) +
+                                            " objects, found " + schema::number_text(objects) +
+                                            " by its groups");
+}
+
+void SceneBuilder::check_definition(XmlElement const& element) {
+    if (element.tag == "transform") {
+        read_transform(element);
+        return;
+    }
+    bool found = false;
+    auto check = [&](auto kind) {
+        using Kind = decltype(kind);
+        if (found || element.tag != Kind::category) return;
+        object<Kind>(element);
+        found = true;
+    };
+    auto check_all = [&](auto... kinds) { (check(kinds), ...); };
+    check_all(schema::TextureKind{}, scene::CameraKind{}, scene::MaterialKind{},
+              scene::EmissionKind{}, scene::VolumeKind{}, scene::MediumKind{}, scene::ShapeKind{},
+              scene::InstanceKind{}, scene::LightKind{}, scene::ImageKind{});
 }
 
 } // namespace weft::io

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -16,16 +17,22 @@ namespace weft::io {
 struct Document {
     std::unique_ptr<XmlElement> root;
     std::multimap<std::string, XmlElement const*, std::less<>> ids;
-    std::map<std::string, std::shared_ptr<scene::Mesh const>> meshes;
-    std::map<std::string, std::shared_ptr<image::Image const>> images;
+    std::map<std::string, std::shared_ptr<scene::Mesh const>> meshes; ///< by path
+    /// By path and encoding.
+    std::map<std::pair<std::string, scene::ColorSpace>, std::shared_ptr<image::Image const>> images;
+    std::set<XmlElement const*> used; ///< the elements that became objects
 };
 
 /// Collects the ids of `document.root`.
 void index_ids(Document& document);
 
+/// Whether files are read, or only looked for.
+enum class Files { read, find };
+
 class SceneBuilder {
   public:
-    SceneBuilder(Document& document, scene::Scene& scene) : document_(document), scene_(scene) {}
+    SceneBuilder(Document& document, scene::Scene& scene, Files files = Files::read)
+        : document_(document), scene_(scene), files_(files) {}
 
     /// Follows a `<ref>`; any other element is returned as it is.
     XmlElement const& resolve(XmlElement const& element) const;
@@ -34,8 +41,9 @@ class SceneBuilder {
     template <class Kind>
     schema::Id<Kind> object(XmlElement const& element);
 
-    /// The value of a texture where it is constant over the surface, else null.
-    Color const* constant_texture(schema::Id<schema::TextureKind> id) const;
+    scene::Texture const& texture(scene::TextureId id) const {
+        return scene_.textures[size_t(id.index)];
+    }
 
     /// Reads one element of a category with several types.
     template <class Variant>
@@ -43,9 +51,13 @@ class SceneBuilder {
     template <class T>
     T read_struct(XmlElement const& element);
 
-    scene::Sampler sampler;                    ///< the last one read
-    XmlElement const* scene_element = nullptr; ///< the last one referred to
-    XmlElement const* image_element = nullptr;
+    /// Reads an object that nothing refers to, for its mistakes.
+    void check_definition(XmlElement const& element);
+
+    scene::Sampler sampler;                         ///< the last one read
+    XmlElement const* scene_element = nullptr;      ///< the last one referred to
+    XmlElement const* image_element = nullptr;      ///< likewise
+    XmlElement const* integrator_element = nullptr; ///< likewise
 
   private:
     int32_t add(schema::TextureKind, XmlElement const& element);
@@ -58,9 +70,10 @@ class SceneBuilder {
     int32_t add(scene::InstanceKind, XmlElement const& element);
     int32_t add(scene::LightKind, XmlElement const& element);
     int32_t add(scene::SamplerKindTag, XmlElement const& element);
-    /// Scenes and images are read by whoever reads the integrator: their elements are kept.
+    /// Scenes, images and integrators are read by whoever asked for them.
     int32_t add(scene::SceneKind, XmlElement const& element);
     int32_t add(scene::ImageKind, XmlElement const& element);
+    int32_t add(scene::IntegratorKind, XmlElement const& element);
 
     /// What a type needs beyond its parameters: files, and rules between parameters.
     template <class T>
@@ -71,13 +84,23 @@ class SceneBuilder {
     void complete(scene::DirectionalLight& light, XmlElement const& element);
     void complete(scene::SpotLight& light, XmlElement const& element);
     void complete(scene::AreaLight& light, XmlElement const& element);
+    void complete(scene::SceneContents& contents, XmlElement const& element);
 
-    std::string find_file(scene::FileName const& file, XmlElement const& element) const;
-    int32_t load_image(scene::FileName const& file, scene::ColorSpace encoding,
-                       XmlElement const& element);
+    /// What an instance amounts to, the members of groups included.
+    struct Summary {
+        double objects; ///< may exceed any integer
+        bool emits;
+    };
+    Summary summary(scene::Instance const& instance) const;
+    int32_t load_image(std::string const& path, scene::ColorSpace encoding,
+                       SourceLocation const& where);
+    int32_t load_mesh(std::string const& path, SourceLocation const& where);
 
     Document& document_;
     scene::Scene& scene_;
+    Files files_;
+    int depth_ = 0;                  ///< of the object being read
+    std::vector<Summary> summaries_; ///< one per instance of the scene
     /// Elements already in the scene, by what they were read as; -1: being read.
     std::map<std::pair<XmlElement const*, std::string_view>, int32_t> read_;
 };

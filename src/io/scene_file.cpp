@@ -22,7 +22,8 @@ std::vector<XmlElement*> find_elements(XmlElement& from, std::string_view name) 
     return by_id.empty() ? by_tag : by_id;
 }
 
-void set_parameter(XmlElement& element, std::string const& name, std::string const& value, SourceLocation const& where) {
+void set_parameter(XmlElement& element, std::string const& name, std::string const& value,
+                   SourceLocation const& where) {
     std::erase_if(element.children, [&](auto const& child) {
         return child->get("name") == name || (child->tag == name && !child->find("name"));
     });
@@ -35,6 +36,29 @@ void set_parameter(XmlElement& element, std::string const& name, std::string con
     element.attributes.push_back({name, value, where});
 }
 
+/// The elements that the first name of a path, or the next below `from`, leads to.
+std::vector<XmlElement*> follow(std::vector<XmlElement*> const& from, std::string const& name,
+                                SourceLocation const& where) {
+    std::vector<XmlElement*> found;
+    for (XmlElement* e : from)
+        for (XmlElement* inner : find_elements(*e, name))
+            if (std::find(found.begin(), found.end(), inner) == found.end()) found.push_back(inner);
+    if (!found.empty()) return found;
+    std::vector<std::string> known;
+    auto collect = [&](auto const& self, XmlElement const& e) -> void {
+        for (auto const& child : e.children) {
+            if (child->tag == "ref" || is_property_tag(child->tag)) continue;
+            for (std::string_view n : {child->get("id"), std::string_view(child->tag)})
+                if (!n.empty() && std::find(known.begin(), known.end(), n) == known.end())
+                    known.emplace_back(n);
+            self(self, *child);
+        }
+    };
+    for (XmlElement* e : from) collect(collect, *e);
+    throw InputError(where,
+                     "no object has the id or tag " + in_quotes(name) + suggestion(name, known));
+}
+
 void apply_override(XmlElement& root, std::string const& override_text) {
     SourceLocation const where{"--set " + override_text, 0, 0};
     size_t const equals = override_text.find('=');
@@ -44,16 +68,11 @@ void apply_override(XmlElement& root, std::string const& override_text) {
     std::vector<XmlElement*> found{&root};
     for (size_t from = 0; from <= dot;) {
         size_t const to = std::min(override_text.find('.', from), dot);
-        std::string const name = override_text.substr(from, to - from);
-        std::vector<XmlElement*> next;
-        for (XmlElement* e : found)
-            for (XmlElement* inner : find_elements(*e, name)) next.push_back(inner);
-        if (next.empty()) throw InputError(where, "the scene has no object with the id or tag '" + name + "'");
-        found = std::move(next);
+        found = follow(found, override_text.substr(from, to - from), where);
         from = to + 1;
     }
-    for (XmlElement* e : found)
-        set_parameter(*e, override_text.substr(dot + 1, equals - dot - 1), override_text.substr(equals + 1), where);
+    std::string const name = override_text.substr(dot + 1, equals - dot - 1);
+    for (XmlElement* e : found) set_parameter(*e, name, override_text.substr(equals + 1), where);
 }
 
 class JobReader {
@@ -75,25 +94,14 @@ class JobReader {
     }
 
     RenderJob read_test(XmlElement const& element) {
-        XmlAttribute const* type = element.find("type");
-        if (!type || type->value != "image")
-            throw InputError(type ? type->where : element.where, "<test> expects type=\"image\"" + (type ? ", found '" + type->value + "'" : std::string()));
-        if (element.get("id").empty()) throw InputError(element.where, "<test> expects an id: it names the reference ID_ref.exr");
-        XmlElement const* integrator = nullptr;
-        XmlElement parameters{element.tag, element.attributes, {}, element.where, element.folder};
-        for (auto const& child : element.children) {
-            if (is_property_tag(child->tag)) {
-                parameters.attributes.push_back({std::string(child->get("name")), property_value(*child).value, child->where});
-            } else if (child->tag == "integrator" && !integrator) {
-                integrator = child.get();
-            } else if (!child->find("id") || child->tag == "integrator") {
-                throw InputError(child->where, "<test> expects one <integrator>, found " + element_title(*child));
-            }
-        }
-        if (!integrator) throw InputError(element.where, "<test> expects an <integrator>, found none");
         scene::Scene unused;
-        RenderJob job = read_integrator(*integrator);
-        job.test = SceneBuilder(document_, unused).read_struct<scene::ImageTest>(parameters);
+        SceneBuilder builder(document_, unused);
+        auto const test = builder.read_variant<std::variant<scene::ImageTest>>(element);
+        if (element.get("id").empty())
+            throw InputError(element.where,
+                             "<test> expects an id: it names the reference ID_ref.exr");
+        RenderJob job = read_integrator(*builder.integrator_element);
+        job.test = std::get<scene::ImageTest>(test);
         job.image_name = element.get("id");
         return job;
     }
@@ -102,10 +110,29 @@ class JobReader {
         auto& scene = scenes_[&element];
         if (!scene) {
             auto fresh = std::make_shared<scene::Scene>();
-            fresh->contents = SceneBuilder(document_, *fresh).read_struct<scene::SceneContents>(element);
+            fresh->contents =
+                SceneBuilder(document_, *fresh).read_struct<scene::SceneContents>(element);
             scene = std::move(fresh);
         }
         return scene;
+    }
+
+    /// A file without an integrator: `path` with its defaults.
+    RenderJob default_job(XmlElement const& scene) {
+        RenderJob job;
+        job.integrator = scene::PathIntegrator{};
+        job.scene = read_scene(scene);
+        job.image_name = scene.get("id");
+        job.folder = scene.folder;
+        job.where = scene.where;
+        return job;
+    }
+
+    /// A scene that no integrator refers to is read for its mistakes alone.
+    void check_scene(XmlElement const& element) {
+        if (scenes_.contains(&element)) return;
+        scene::Scene unused;
+        SceneBuilder(document_, unused, Files::find).read_struct<scene::SceneContents>(element);
     }
 
   private:
@@ -113,32 +140,77 @@ class JobReader {
     std::map<XmlElement const*, std::shared_ptr<scene::Scene const>> scenes_;
 };
 
-SceneFile read_document(std::unique_ptr<XmlElement> root, std::vector<std::string> const& overrides) {
-    static std::vector<std::string> const known{"integrator", "test", "scene", "postprocess", "include", "bsdf", "texture", "shape", "instance", "light", "camera", "emission", "volume", "medium", "sampler", "image", "transform"};
+std::vector<std::string> root_tags() {
+    std::vector<std::string> tags{"integrator", "test", "scene", "postprocess"};
+    auto const more = definition_tags();
+    tags.insert(tags.end(), more.begin(), more.end());
+    return tags;
+}
+
+/// Mistakes in what nothing refers to are mistakes, too.
+void check_unused(Document& document, XmlElement const& element) {
+    for (auto const& child : element.children) {
+        if (child->tag == "postprocess") continue;
+        if (is_definition_tag(child->tag) && !document.used.contains(child.get())) {
+            scene::Scene unused;
+            SceneBuilder(document, unused, Files::find).check_definition(*child);
+        }
+        check_unused(document, *child);
+    }
+}
+
+void check_image_names(SceneFile& file) {
+    std::map<std::pair<std::string, std::string>, RenderJob const*> names;
+    for (RenderJob const& job : file.jobs) {
+        if (job.test) continue;
+        auto const [it, fresh] = names.emplace(std::pair(job.folder, job.image_name), &job);
+        if (!fresh)
+            file.warnings.push_back(to_string(job.where) + ": writes the same picture '" +
+                                    job.image_name + ".exr' as the integrator at " +
+                                    to_string(it->second->where));
+    }
+}
+
+SceneFile read_document(std::unique_ptr<XmlElement> root,
+                        std::vector<std::string> const& overrides) {
     for (std::string const& o : overrides) apply_override(*root, o);
-    Document document{std::move(root), {}, {}, {}};
+    Document document{std::move(root), {}, {}, {}, {}};
     index_ids(document);
     JobReader reader(document);
     SceneFile file;
-    XmlElement const* lone_scene = nullptr;
+    std::vector<XmlElement const*> scenes;
     for (auto const& child : document.root->children) {
         if (child->tag == "integrator") {
             file.jobs.push_back(reader.read_integrator(*child));
         } else if (child->tag == "test") {
             file.jobs.push_back(reader.read_test(*child));
         } else if (child->tag == "scene") {
-            lone_scene = child.get();
+            scenes.push_back(child.get());
         } else if (child->tag == "postprocess") {
-            file.warnings.push_back(to_string(child->where) + ": " + element_title(*child) + " is not supported yet and is left out");
-        } else if (std::find(known.begin(), known.end(), child->tag) == known.end()) {
-            throw InputError(child->where, "unknown tag <" + child->tag + ">" + suggestion(child->tag, known));
+            file.warnings.push_back(to_string(child->where) + ": " + element_title(*child) +
+                                    " is not supported yet and is left out");
+        } else if (!is_definition_tag(child->tag)) {
+            throw InputError(child->where, "unknown tag <" + child->tag + ">" +
+                                               suggestion(child->tag, root_tags()));
+        } else if (child->get("id").empty()) {
+            throw InputError(child->where, element_title(*child) +
+                                               " outside of a scene expects an id: nothing can "
+                                               "refer to it");
         }
     }
-    if (file.jobs.empty() && lone_scene) {
-        RenderJob job{scene::PathIntegrator{}, {}, {}, reader.read_scene(*lone_scene), std::string(lone_scene->get("id")), lone_scene->folder, {}, lone_scene->where};
-        file.jobs.push_back(std::move(job));
+    if (file.jobs.empty()) {
+        if (scenes.empty())
+            throw InputError(document.root->where,
+                             "expected an <integrator>, <test> or <scene>, found none");
+        if (scenes.size() > 1)
+            throw InputError(scenes[1]->where,
+                             "expected an <integrator> that refers to one of several scenes, "
+                             "found none");
+        file.jobs.push_back(reader.default_job(*scenes.front()));
     }
-    if (file.jobs.empty()) throw InputError(document.root->where, "expected an <integrator>, <test> or <scene>, found none");
+    for (XmlElement const* scene : scenes) reader.check_scene(*scene);
+    check_unused(document, *document.root);
+    check_image_names(file);
     return file;
 }
 
@@ -153,7 +225,7 @@ SceneFile read_scene_file(std::string const& path, std::vector<std::string> cons
     return read_document(read_xml(path), overrides);
 }
 
-SceneFile parse_scene(std::string const& text, std::string const& name, std::string const& folder,
+SceneFile parse_scene(std::string_view text, std::string const& name, std::string const& folder,
                       std::vector<std::string> const& overrides) {
     return read_document(parse_xml(text, name, folder), overrides);
 }

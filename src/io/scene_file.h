@@ -18,8 +18,8 @@ struct RenderJob {
     scene::RenderTarget target;
     scene::Sampler sampler;
     std::shared_ptr<scene::Scene const> scene;
-    std::string image_name;              ///< the id of its <image>, of its <test>, or ""
-    std::string folder;                  ///< of the file; "" is the current one
+    std::string image_name; ///< the id of its <image>, of its <test>, or ""
+    std::string folder;     ///< of the file; "" is the current one
     std::optional<scene::ImageTest> test;
     SourceLocation where;
 };
@@ -36,7 +36,7 @@ struct SceneFile {
 SceneFile read_scene_file(std::string const& path, std::vector<std::string> const& overrides = {});
 
 /// As read_scene_file, for text in memory.
-SceneFile parse_scene(std::string const& text, std::string const& name, std::string const& folder,
+SceneFile parse_scene(std::string_view text, std::string const& name, std::string const& folder,
                       std::vector<std::string> const& overrides = {});
 
 /// The schemas of every type that a file may name, by category.

@@ -1,11 +1,11 @@
 #include "io/xml_document.h"
 
 #include <algorithm>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <pugixml.hpp>
+#include <set>
+
+#include "io/file_bytes.h"
 
 namespace weft::io {
 
@@ -24,47 +24,74 @@ std::string_view XmlElement::get(std::string_view name) const {
 
 namespace {
 
-/// Nesting beyond this is an attack or an accident, and would exhaust the stack.
-constexpr int kMaxNesting = 200;
+/// Files that include one another several times over grow exponentially.
+constexpr int kMaxIncludes = 10000;
+constexpr size_t kMaxIncludedBytes = size_t(1) << 30;
 
+/// What the files of one document share while they are read.
+struct Includes {
+    std::vector<fs::path> open; ///< the chain of files being read, to find cycles
+    int files = 0;
+    size_t bytes = 0;
+};
+
+fs::path canonical(std::string const& path) {
+    std::error_code error;
+    fs::path const result = fs::weakly_canonical(path, error);
+    return error ? fs::path(path) : result;
+}
+
+std::string_view without_byte_order_mark(std::string_view text) {
+    return text.starts_with("\xef\xbb\xbf") ? text.substr(3) : text;
+}
+
+/// One file on its way into the tree.
 class Builder {
   public:
-    Builder(std::string text, std::string name, std::string folder, std::vector<fs::path>& open)
-        : text_(std::move(text)), name_(std::move(name)), folder_(std::move(folder)), open_(open) {
+    Builder(std::string_view text, std::string name, std::string folder, Includes& includes)
+        : text_(without_byte_order_mark(text)), name_(std::move(name)), folder_(std::move(folder)),
+          includes_(includes) {
         for (size_t i = 0; i < text_.size(); ++i)
             if (text_[i] == '\n') line_starts_.push_back(i + 1);
     }
 
-    void build_into(XmlElement& parent) {
+    void build_into(XmlElement& parent, int depth) {
+        if (text_.starts_with("\xff\xfe") || text_.starts_with("\xfe\xff"))
+            throw InputError({name_, 1, 1}, "expected text in UTF-8, found UTF-16");
+        if (size_t const zero = text_.find('\0'); zero != std::string_view::npos)
+            throw InputError(location(zero), "malformed XML: expected text, found a zero byte");
         pugi::xml_document document;
-        auto const flags = pugi::parse_default | pugi::parse_ws_pcdata_single;
-        auto const result = document.load_buffer(text_.data(), text_.size(), flags);
+        // As a fragment, a document may hold several objects, and text between them is seen.
+        auto const flags = pugi::parse_default | pugi::parse_fragment;
+        auto const result =
+            document.load_buffer(text_.data(), text_.size(), flags, pugi::encoding_utf8);
         if (!result)
             throw InputError(location(size_t(result.offset)),
                              std::string("malformed XML: ") + result.description());
-        add_children(document, parent, 0);
+        add_children(document, parent, depth);
     }
 
+  private:
     SourceLocation location(size_t offset) const {
         auto const next = std::upper_bound(line_starts_.begin(), line_starts_.end(), offset);
         auto const line = next - line_starts_.begin();
         return {name_, int(line), int(offset - line_starts_[size_t(line - 1)]) + 1};
     }
 
-  private:
     void add_children(pugi::xml_node const& from, XmlElement& to, int depth) {
         for (pugi::xml_node const& node : from.children()) {
             size_t const offset = node.offset_debug() > 0 ? size_t(node.offset_debug()) : 0;
             if (node.type() == pugi::node_pcdata || node.type() == pugi::node_cdata) {
-                std::string_view const value = node.value();
-                if (value.find_first_not_of(" \t\r\n") == std::string_view::npos) continue;
-                throw InputError(location(offset), "expected a tag, found the text '" +
-                                                       std::string(value.substr(0, 40)) + "'");
+                std::string_view text = node.value();
+                size_t const start = text.find_first_not_of(" \t\r\n");
+                if (start == std::string_view::npos) continue;
+                text.remove_prefix(start);
+                throw InputError(
+                    location(text_.find_first_not_of(" \t\r\n", offset)),
+                    "expected a tag, found the text " +
+                        in_quotes(text.substr(0, text.find_last_not_of(" \t\r\n") + 1)));
             }
-            if (node.type() != pugi::node_element) continue;
-            if (depth > kMaxNesting)
-                throw InputError(location(offset), "tags are nested more than 200 deep");
-            add_element(node, offset, to, depth);
+            if (node.type() == pugi::node_element) add_element(node, offset, to, depth);
         }
     }
 
@@ -73,22 +100,24 @@ class Builder {
         element->tag = node.name();
         element->where = location(offset > 0 ? offset - 1 : 0); // pugixml points behind the '<'
         element->folder = folder_;
+        if (depth > kMaxNesting)
+            throw InputError(element->where, "expected tags nested at most " +
+                                                 std::to_string(kMaxNesting) + " deep, found more");
         size_t from = offset + element->tag.size();
+        std::set<std::string_view> names;
         for (pugi::xml_attribute const& a : node.attributes()) {
-            from = find_name(a.name(), from);
-            element->attributes.push_back({a.name(), a.value(), location(from)});
-            from += std::strlen(a.name());
-        }
-        for (size_t i = 0; i < element->attributes.size(); ++i)
-            if (element->find(element->attributes[i].name) != &element->attributes[i])
-                throw InputError(element->attributes[i].where,
-                                 "'" + element->attributes[i].name + "' is given twice");
-        if (element->tag == "include") {
-            include(*element, parent);
-            return;
+            std::string_view const name = a.name();
+            from = find_name(name, from);
+            if (!names.insert(name).second)
+                throw InputError(location(from), in_quotes(name) + " is given twice");
+            element->attributes.push_back({std::string(name), a.value(), location(from)});
+            from += name.size();
         }
         add_children(node, *element, depth + 1);
-        parent.children.push_back(std::move(element));
+        if (element->tag == "include")
+            include(*element, parent, depth);
+        else
+            parent.children.push_back(std::move(element));
     }
 
     /// The offset at which an attribute's name stands: the parser keeps none, but attributes
@@ -101,56 +130,83 @@ class Builder {
                 if (c == quote) quote = 0;
             } else if (c == '"' || c == '\'') {
                 quote = c;
-            } else if (text_.compare(i, name.size(), name) == 0) {
+            } else if (text_.substr(i, name.size()) == name) {
                 return i;
             }
         }
         return from;
     }
 
-    void include(XmlElement const& element, XmlElement& parent) {
+    void include(XmlElement const& element, XmlElement& parent, int depth) {
         XmlAttribute const* file = element.find("filename");
         if (!file) throw InputError(element.where, "<include> expects filename=\"...\"");
         for (XmlAttribute const& a : element.attributes)
             if (a.name != "filename")
-                throw InputError(a.where, "unknown parameter '" + a.name + "' of <include>; known: filename");
-        fs::path const path = fs::path(folder_) / file->value;
-        std::ifstream in(path, std::ios::binary);
-        if (!in || fs::is_directory(path))
-            throw InputError(file->where, "cannot include '" + file->value + "': expected a readable file at " + path.string());
-        fs::path const canonical = fs::weakly_canonical(path);
-        if (std::find(open_.begin(), open_.end(), canonical) != open_.end())
-            throw InputError(file->where, "cyclic include: '" + file->value + "' is being read already");
-        open_.push_back(canonical);
-        std::string text((std::istreambuf_iterator<char>(in)), {});
-        Builder(std::move(text), path.lexically_normal().string(), path.parent_path().string(), open_)
-            .build_into(parent);
-        open_.pop_back();
+                throw InputError(a.where, "unknown parameter " + in_quotes(a.name) +
+                                              " of <include>; known: filename");
+        if (!element.children.empty())
+            throw InputError(element.children.front()->where,
+                             "<include> has no child tags, found <" +
+                                 element.children.front()->tag + ">");
+        std::string const path = existing_file(folder_, file->value, file->where);
+        fs::path const same = canonical(path);
+        if (std::find(includes_.open.begin(), includes_.open.end(), same) != includes_.open.end())
+            throw InputError(file->where, "cyclic include: " + in_quotes(file->value) +
+                                              " is being read already");
+        FileBytes const bytes = read_file(path);
+        includes_.bytes += bytes.view().size();
+        if (++includes_.files > kMaxIncludes || includes_.bytes > kMaxIncludedBytes)
+            throw InputError(file->where, "expected at most " + std::to_string(kMaxIncludes) +
+                                              " includes of 1 GiB together, found more");
+        includes_.open.push_back(same);
+        Builder(bytes.view(), path, fs::path(path).parent_path().string(), includes_)
+            .build_into(parent, depth);
+        includes_.open.pop_back();
     }
 
-    std::string text_, name_, folder_;
-    std::vector<fs::path>& open_; ///< the chain of includes, to find cycles
+    std::string_view text_;
+    std::string name_, folder_;
+    Includes& includes_;
     std::vector<size_t> line_starts_{0};
 };
 
 } // namespace
 
-std::unique_ptr<XmlElement> parse_xml(std::string const& text, std::string const& name,
+std::unique_ptr<XmlElement> parse_xml(std::string_view text, std::string const& name,
                                       std::string const& folder) {
-    std::vector<fs::path> open{fs::weakly_canonical(name)};
+    Includes includes{.open = {canonical(name)}};
     auto root = std::make_unique<XmlElement>();
     root->where = {name, 1, 1};
     root->folder = folder;
-    Builder(text, name, folder, open).build_into(*root);
+    Builder(text, name, folder, includes).build_into(*root, 1);
     return root;
 }
 
 std::unique_ptr<XmlElement> read_xml(std::string const& path) {
-    std::ifstream in(path, std::ios::binary);
-    if (!in || fs::is_directory(path))
-        throw InputError("cannot read '" + path + "': expected a readable scene file");
-    std::string const text((std::istreambuf_iterator<char>(in)), {});
-    return parse_xml(text, path, fs::path(path).parent_path().string());
+    FileBytes const bytes = read_file(path);
+    return parse_xml(bytes.view(), path, fs::path(path).parent_path().string());
+}
+
+std::string existing_file(std::string const& folder, std::string const& file,
+                          SourceLocation const& where) {
+    fs::path const path = (fs::path(folder) / file).lexically_normal();
+    std::error_code error;
+    fs::file_status const status = fs::status(path, error);
+    if (fs::is_regular_file(status)) return path.string();
+    throw InputError(where, "expected a file at " + in_quotes(path.string()) + ", found " +
+                                (fs::is_directory(status) ? "a folder"
+                                 : fs::exists(status)     ? "a device or pipe"
+                                                          : "none"));
+}
+
+std::string in_quotes(std::string_view text) {
+    constexpr size_t longest = 200;
+    bool const cut = text.size() > longest;
+    size_t end = cut ? longest : text.size();
+    while (cut && (text[end] & 0xc0) == 0x80) --end; // not inside of a character
+    std::string result = "'";
+    for (char c : text.substr(0, end)) result += static_cast<unsigned char>(c) < 32 ? ' ' : c;
+    return result + (cut ? "...'" : "'");
 }
 
 } // namespace weft::io

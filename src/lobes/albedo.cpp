@@ -59,16 +59,16 @@ float reflection_albedo(Ggx const& d, float cos_o) {
                       cos_o);
 }
 float reflection_albedo(Beckmann const& d, float cos_o) {
-    return reflection(albedo_tables::beckmann_reflection,
-                      mean_square_alpha(d.alpha_x, d.alpha_y), cos_o);
+    return reflection(albedo_tables::beckmann_reflection, mean_square_alpha(d.alpha_x, d.alpha_y),
+                      cos_o);
 }
 DielectricAlbedo dielectric_albedo(Ggx const& d, float cos_o, float eta) {
-    return dielectric(albedo_tables::ggx_dielectric, mean_square_alpha(d.alpha_x, d.alpha_y),
-                      cos_o, eta);
+    return dielectric(albedo_tables::ggx_dielectric, mean_square_alpha(d.alpha_x, d.alpha_y), cos_o,
+                      eta);
 }
 DielectricAlbedo dielectric_albedo(Beckmann const& d, float cos_o, float eta) {
-    return dielectric(albedo_tables::beckmann_dielectric,
-                      mean_square_alpha(d.alpha_x, d.alpha_y), cos_o, eta);
+    return dielectric(albedo_tables::beckmann_dielectric, mean_square_alpha(d.alpha_x, d.alpha_y),
+                      cos_o, eta);
 }
 
 } // namespace weft::lobes

@@ -4,7 +4,9 @@
 // tools/make_albedo_tables.cpp writes the tables (albedo_tables.h) on the grids declared here.
 // Between nodes they are interpolated linearly. Anisotropic distributions are looked up at the
 // root mean square of their alphas, which forgets the azimuth of wo. Alphas beyond 1 and indices
-// beyond 4 (or below 1 / 4) are taken at that bound.
+// beyond 4 (or below 1 / 4) are taken at that bound. Mean absolute error: 0.002 for reflection and
+// 0.005 for dielectrics (worst about 0.1, at grazing angles); 0.03 where alphas differ (worst 0.2,
+// at 0.8 by 0.002; the geometric mean would be four times off).
 #pragma once
 
 #include <array>

@@ -35,10 +35,10 @@ struct Lobe {
 
 struct BsdfSample {
     Vec3 wi{0, 0, 0};
-    Color weight;          ///< f |cos wi| / pdf
-    float pdf = 0;         ///< per solid angle, or a probability for Delta; 0 means failure
-    LobeFlags flags{};     ///< the side of wi and the kind of the lobe picked
-    float eta_scale = 1;   ///< eta^2 of the lobe picked if it transmitted, else 1
+    Color weight;        ///< f |cos wi| / pdf
+    float pdf = 0;       ///< per solid angle, or a probability for Delta; 0 means failure
+    LobeFlags flags{};   ///< the side of wi and the kind of the lobe picked
+    float eta_scale = 1; ///< eta^2 of the lobe picked if it transmitted, else 1
 };
 
 class Bsdf {
@@ -65,7 +65,8 @@ class Bsdf {
     bool add(Color const& weight, L const& kind) {
         if (is_black(weight)) return true;
         if (count_ == capacity) return false;
-        Lobe const& lobe = *std::construct_at(&lobes_[count_++], Lobe{weight, 1, LobeVariant(kind)});
+        Lobe const& lobe =
+            *std::construct_at(&lobes_[count_++], Lobe{weight, 1, LobeVariant(kind)});
         LobeFlags const flags = match(lobe.kind, [](auto const& l) { return l.flags(); });
         flags_ |= flags;
         if (!any(flags, LobeFlags::Delta)) smooth_flags_ |= flags;
@@ -167,8 +168,7 @@ inline void Bsdf::prepare(Vec3 const& wo) {
     Vec3 const local = frame.to_local(wo);
     float total = 0;
     for (int i = 0; i < count_; ++i) {
-        Color const albedo =
-            match(lobes_[i].kind, [&](auto const& l) { return l.albedo(local); });
+        Color const albedo = match(lobes_[i].kind, [&](auto const& l) { return l.albedo(local); });
         lobes_[i].pick = average(lobes_[i].weight * (albedo + Color(least_albedo)));
         total += lobes_[i].pick;
     }

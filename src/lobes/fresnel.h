@@ -9,6 +9,14 @@
 
 namespace weft::lobes {
 
+/// Reflectance of a dielectric from the cosines on both sides, which obey Snell's law and are not
+/// both 0. Near total reflection this keeps the digits that computing cos_t from cos_o loses.
+inline float fresnel_dielectric_cosines(float cos_o, float cos_t, float eta) {
+    float const perpendicular = (cos_o - eta * cos_t) / (cos_o + eta * cos_t);
+    float const parallel = (eta * cos_o - cos_t) / (eta * cos_o + cos_t);
+    return 0.5f * (square(perpendicular) + square(parallel));
+}
+
 /// Reflectance of a dielectric; cos_o in [0, 1] on the near side, `eta` = far index / near
 /// index > 0. `cos_t` gets the cosine of the refracted ray, 0 under total reflection.
 inline float fresnel_dielectric(float cos_o, float eta, float& cos_t) {
@@ -19,11 +27,8 @@ inline float fresnel_dielectric(float cos_o, float eta, float& cos_t) {
         cos_t = 0;
         return 1;
     }
-    float const g = std::sqrt(k); // eta cos_t
-    cos_t = std::min(g / eta, 1.f);
-    float const perpendicular = (c - g) / (c + g);
-    float const parallel = (eta * c - cos_t) / (eta * c + cos_t);
-    return 0.5f * (square(perpendicular) + square(parallel));
+    cos_t = std::min(std::sqrt(k) / eta, 1.f);
+    return fresnel_dielectric_cosines(c, cos_t, eta);
 }
 
 inline float fresnel_dielectric(float cos_o, float eta) {

@@ -13,7 +13,9 @@ struct Lambert {
         float const pdf = cosine_hemisphere_pdf(wi.z);
         return {Color(pdf), pdf};
     }
-    Vec3 sample(Vec3 const&, Vec3 const& u) const { return square_to_cosine_hemisphere({u.x, u.y}); }
+    Vec3 sample(Vec3 const&, Vec3 const& u) const {
+        return square_to_cosine_hemisphere({u.x, u.y});
+    }
     Color albedo(Vec3 const&) const { return Color(1); }
 };
 

@@ -76,8 +76,8 @@ struct Ggx {
         float const above = (1 - u.y) * (1 + w.z);
         float const one_plus_z = above + (w.x * w.x + w.y * w.y) / (1 + w.z);
         float const r = safe_sqrt(one_plus_z * (2 - one_plus_z));
-        return normalize(Vec3(alpha_x * (r * std::cos(phi) + w.x),
-                              alpha_y * (r * std::sin(phi) + w.y), above));
+        return normalize(
+            Vec3(alpha_x * (r * std::cos(phi) + w.x), alpha_y * (r * std::sin(phi) + w.y), above));
     }
 };
 

@@ -30,9 +30,11 @@ class MicrofacetDielectric {
     Distribution const& distribution() const { return distribution_; }
     float eta() const { return eta_; } ///< the one in use, off 1
     float eta_scale() const { return square(eta_); }
+    Color const& reflectance() const { return reflectance_; }
+    Color const& transmittance() const { return transmittance_; }
 
     LobeValue eval(Vec3 const& wo, Vec3 const& wi) const {
-        return wi.z > 0 ? eval_reflection(wo, wi)
+        return wi.z > 0   ? eval_reflection(wo, wi)
                : wi.z < 0 ? eval_transmission(wo, wi)
                           : LobeValue{};
     }
@@ -59,8 +61,11 @@ class MicrofacetDielectric {
 
   private:
     LobeValue eval_reflection(Vec3 const& wo, Vec3 const& wi) const {
-        Vec3 const h = normalize(wo + wi);
-        float const fresnel = fresnel_dielectric(dot(wo, h), eta_);
+        Vec3 const sum = wo + wi;
+        float const sum_length = length(sum);
+        Vec3 const h = sum * (1 / sum_length);
+        // wo.h is half the length of the sum, and that is the same seen from wi.
+        float const fresnel = fresnel_dielectric(0.5f * sum_length, eta_);
         float const sigma_o = distribution_.projected_area(wo);
         float const sigma_i = distribution_.projected_area(wi);
         float const density = distribution_.density(h) / (4 * sigma_o);
@@ -77,7 +82,7 @@ class MicrofacetDielectric {
         Vec3 const h = sum * ((eta_ > 1 ? -1.f : 1.f) / std::sqrt(sum2));
         float const cos_o = dot(wo, h), cos_i = dot(wi, h);
         if (!(cos_o > 0 && cos_i < 0)) return {};
-        float const fresnel = fresnel_dielectric(cos_o, eta_);
+        float const fresnel = fresnel_dielectric_cosines(cos_o, -cos_i, eta_);
         float const sigma_o = distribution_.projected_area(wo);
         float const sigma_i = distribution_.projected_area(wi);
         float const jacobian = -cos_i / sum2; // of h in wi, over eta^2

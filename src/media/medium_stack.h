@@ -29,9 +29,11 @@ class MediumStack {
     /// What would be there outside of `object`.
     Interior const& current_without(uint32_t object) const { return entries_[top(object)]; }
 
-    /// Whether the boundary of an object with this priority can be seen from here.
+    /// Whether the boundary of an object with this priority can be seen from here: from inside,
+    /// where that object is what is there; from outside, where it will be.
     bool is_visible(uint32_t object, int32_t priority) const {
-        return priority >= current_without(object).priority;
+        Interior const& here = current();
+        return here.object == object || (priority >= here.priority && !contains(object));
     }
 
     /// Goes in. A full stack (more than 7 nested objects) forgets the object.

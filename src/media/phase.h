@@ -15,11 +15,11 @@ inline float henyey_greenstein(float cos_wo_wi, float g) {
 
 /// A direction with exactly that density.
 inline Vec3 sample_henyey_greenstein(Vec3 const& wo, float g, Vec2 u) {
-    float cos_theta = 1 - 2 * u.x; // of the angle to -wo
-    if (std::abs(g) > 1e-3f) {
-        float const s = (1 - g * g) / (1 - g + 2 * g * u.x);
-        cos_theta = std::clamp((1 + g * g - s * s) / (2 * g), -1.f, 1.f);
-    }
+    // The inverse of the distribution, (1 + g^2 - s^2) / (2 g) with s = (1 - g^2) / (1 + g t),
+    // without its division by g.
+    float const t = 2 * u.x - 1, d = 1 + g * t;
+    float const cosine = 0.5f * (g + (2 * t + g * (t * t + 2 - g * g)) / (d * d)); // to -wo
+    float const cos_theta = std::clamp(cosine, -1.f, 1.f);
     float const sin_theta = safe_sqrt(1 - cos_theta * cos_theta), phi = 2 * kPi * u.y;
     return Frame(-wo).to_world({sin_theta * std::cos(phi), sin_theta * std::sin(phi), cos_theta});
 }

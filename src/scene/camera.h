@@ -6,8 +6,8 @@
 #include <string_view>
 #include <variant>
 
-#include "schema/describe.h"
 #include "scene/handles.h"
+#include "schema/describe.h"
 
 namespace weft::scene {
 
@@ -22,8 +22,10 @@ struct Viewpoint {
 
     template <class F>
     constexpr void describe(F&& f) {
-        f("width", width, {.unit = "pixels", .min = 1, .max = 65536, .help = "Width of the picture."});
-        f("height", height, {.unit = "pixels", .min = 1, .max = 65536, .help = "Height of the picture."});
+        f("width", width,
+          {.unit = "pixels", .min = 1, .max = 65536, .help = "Width of the picture."});
+        f("height", height,
+          {.unit = "pixels", .min = 1, .max = 65536, .help = "Height of the picture."});
         f("transform", transform, {.help = "From the camera's space to the world."});
     }
 };
@@ -33,9 +35,10 @@ struct Perspective {
         .category = "camera",
         .type = "perspective",
         .help = "A pinhole camera: everything is in focus.",
-        .example = "<camera type=\"perspective\" width=\"1280\" height=\"720\" fov=\"40\">\n"
-                   "  <transform><lookat origin=\"0,-1,-4\" target=\"0,0,0\" up=\"0,1,0\"/></transform>\n"
-                   "</camera>"};
+        .example =
+            "<camera type=\"perspective\" width=\"1280\" height=\"720\" fov=\"40\">\n"
+            "  <transform><lookat origin=\"0,-1,-4\" target=\"0,0,0\" up=\"0,1,0\"/></transform>\n"
+            "</camera>"};
     Viewpoint view;
     float fov = 45;
     FovAxis fov_axis = FovAxis::x;
@@ -43,7 +46,11 @@ struct Perspective {
     template <class F>
     constexpr void describe(F&& f) {
         f.group(view);
-        f("fov", fov, {.unit = "deg", .min = 0.001, .max = 179.9, .help = "Full opening angle over the axis `fovAxis`."});
+        f("fov", fov,
+          {.unit = "deg",
+           .min = 0.001,
+           .max = 179.9,
+           .help = "Full opening angle over the axis `fovAxis`."});
         f("fovAxis", fov_axis, {.help = "The image axis that `fov` spans."});
     }
 };
@@ -68,20 +75,35 @@ struct ThinLens {
     template <class F>
     constexpr void describe(F&& f) {
         f.group(view);
-        f("fov", fov, {.unit = "deg", .min = 0.001, .max = 179.9, .help = "Full opening angle over the axis `fovAxis`."});
+        f("fov", fov,
+          {.unit = "deg",
+           .min = 0.001,
+           .max = 179.9,
+           .help = "Full opening angle over the axis `fovAxis`."});
         f("fovAxis", fov_axis, {.help = "The image axis that `fov` spans."});
-        f("lensRadius", lens_radius, {.unit = "scene", .min = 0, .help = "Radius of the lens; 0 is a pinhole."});
-        f("focalDistance", focal_distance, {.unit = "scene", .min = 1e-12, .help = "Distance of the plane of focus, along the view axis."});
-        f("blades", blades, {.min = 0, .max = 64, .help = "Number of aperture blades; fewer than 3 is a round aperture."});
-        f("bladeRotation", blade_rotation, {.unit = "deg", .help = "Rotation of the polygonal aperture."});
-        f("bokeh", bokeh, {.help = "An image whose brightness is the aperture's transmission; it fills the square around the lens."});
+        f("lensRadius", lens_radius,
+          {.unit = "scene", .min = 0, .help = "Radius of the lens; 0 is a pinhole."});
+        f("focalDistance", focal_distance,
+          {.unit = "scene",
+           .min = 1e-12,
+           .help = "Distance of the plane of focus, along the view axis."});
+        f("blades", blades,
+          {.min = 0,
+           .max = 64,
+           .help = "Number of aperture blades; fewer than 3 is a round aperture."});
+        f("bladeRotation", blade_rotation,
+          {.unit = "deg", .help = "Rotation of the polygonal aperture."});
+        f("bokeh", bokeh,
+          {.help = "An image whose brightness is the aperture's transmission; it fills the square "
+                   "around the lens."});
     }
 };
 
 struct Orthographic {
-    static constexpr schema::TypeInfo info{.category = "camera",
-                                           .type = "orthographic",
-                                           .help = "Parallel projection: size does not depend on distance."};
+    static constexpr schema::TypeInfo info{
+        .category = "camera",
+        .type = "orthographic",
+        .help = "Parallel projection: size does not depend on distance."};
     Viewpoint view;
     float scale = 1;
     FovAxis fov_axis = FovAxis::x;
@@ -89,7 +111,10 @@ struct Orthographic {
     template <class F>
     constexpr void describe(F&& f) {
         f.group(view);
-        f("scale", scale, {.unit = "scene", .min = 1e-12, .help = "Half of the picture's extent along the axis `fovAxis`."});
+        f("scale", scale,
+          {.unit = "scene",
+           .min = 1e-12,
+           .help = "Half of the picture's extent along the axis `fovAxis`."});
         f("fovAxis", fov_axis, {.help = "The image axis that `scale` spans."});
     }
 };

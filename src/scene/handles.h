@@ -9,18 +9,45 @@ namespace weft::scene {
 using schema::FileName;
 using schema::Input;
 
-struct CameraKind { static constexpr char const* category = "camera"; };
-struct MaterialKind { static constexpr char const* category = "bsdf"; };
-struct EmissionKind { static constexpr char const* category = "emission"; };
-struct VolumeKind { static constexpr char const* category = "volume"; };
-struct MediumKind { static constexpr char const* category = "medium"; };
-struct ShapeKind { static constexpr char const* category = "shape"; };
-struct InstanceKind { static constexpr char const* category = "instance"; };
-struct LightKind { static constexpr char const* category = "light"; };
-struct SamplerKindTag { static constexpr char const* category = "sampler"; };
-struct FilterKindTag { static constexpr char const* category = "filter"; };
-struct SceneKind { static constexpr char const* category = "scene"; };
-struct ImageKind { static constexpr char const* category = "image"; };
+struct CameraKind {
+    static constexpr char const* category = "camera";
+};
+struct MaterialKind {
+    static constexpr char const* category = "bsdf";
+};
+struct EmissionKind {
+    static constexpr char const* category = "emission";
+};
+struct VolumeKind {
+    static constexpr char const* category = "volume";
+};
+struct MediumKind {
+    static constexpr char const* category = "medium";
+};
+struct ShapeKind {
+    static constexpr char const* category = "shape";
+};
+struct InstanceKind {
+    static constexpr char const* category = "instance";
+};
+struct LightKind {
+    static constexpr char const* category = "light";
+};
+struct SamplerKindTag {
+    static constexpr char const* category = "sampler";
+};
+struct FilterKindTag {
+    static constexpr char const* category = "filter";
+};
+struct SceneKind {
+    static constexpr char const* category = "scene";
+};
+struct ImageKind {
+    static constexpr char const* category = "image";
+};
+struct IntegratorKind {
+    static constexpr char const* category = "integrator";
+};
 
 using TextureId = schema::Id<schema::TextureKind>;
 using CameraId = schema::Id<CameraKind>;
@@ -35,5 +62,6 @@ using SamplerId = schema::Id<SamplerKindTag>;
 using FilterId = schema::Id<FilterKindTag>;
 using SceneId = schema::Id<SceneKind>;
 using ImageId = schema::Id<ImageKind>;
+using IntegratorId = schema::Id<IntegratorKind>;
 
 } // namespace weft::scene

@@ -5,14 +5,16 @@
 #include <string_view>
 #include <variant>
 
-#include "schema/describe.h"
 #include "scene/handles.h"
+#include "schema/describe.h"
 
 namespace weft::scene {
 
 struct Diffuse {
     static constexpr schema::TypeInfo info{
-        .category = "bsdf", .type = "diffuse", .help = "Lambert's ideal matte surface, the same from both sides."};
+        .category = "bsdf",
+        .type = "diffuse",
+        .help = "Lambert's ideal matte surface, the same from both sides."};
     Input<Color> albedo{Color(0.8f)};
 
     template <class F>
@@ -28,7 +30,8 @@ struct Conductor {
 
     template <class F>
     constexpr void describe(F&& f) {
-        f("reflectance", reflectance, {.min = 0, .max = 1, .help = "Fraction of light that is reflected."});
+        f("reflectance", reflectance,
+          {.min = 0, .max = 1, .help = "Fraction of light that is reflected."});
     }
 };
 
@@ -37,37 +40,53 @@ constexpr auto choices(Microfacets) { return std::array<std::string_view, 2>{"gg
 
 struct RoughConductor {
     static constexpr schema::TypeInfo info{
-        .category = "bsdf", .type = "roughconductor", .help = "A mirror of microscopic facets: brushed or cast metal."};
+        .category = "bsdf",
+        .type = "roughconductor",
+        .help = "A mirror of microscopic facets: brushed or cast metal."};
     Input<Color> reflectance{Color(1)};
     Input<float> roughness{0.5f};
     Microfacets distribution = Microfacets::ggx;
 
     template <class F>
     constexpr void describe(F&& f) {
-        f("reflectance", reflectance, {.min = 0, .max = 1, .help = "Fraction of light that a facet reflects."});
-        f("roughness", roughness, {.min = 0, .max = 1, .help = "0 is a mirror, 1 is dull; alpha = max(roughness^2, 0.001)."});
+        f("reflectance", reflectance,
+          {.min = 0, .max = 1, .help = "Fraction of light that a facet reflects."});
+        f("roughness", roughness,
+          {.min = 0,
+           .max = 1,
+           .help = "0 is a mirror, 1 is dull; alpha = max(roughness^2, 0.001)."});
         f("distribution", distribution, {.help = "Distribution of the facets' normals."});
     }
 };
 
 struct Dielectric {
     static constexpr schema::TypeInfo info{
-        .category = "bsdf", .type = "dielectric", .help = "A smooth boundary such as glass or water: it reflects and refracts."};
+        .category = "bsdf",
+        .type = "dielectric",
+        .help = "A smooth boundary such as glass or water: it reflects and refracts."};
     Input<float> ior{1.5f};
     Input<Color> reflectance{Color(1)};
     Input<Color> transmittance{Color(1)};
 
     template <class F>
     constexpr void describe(F&& f) {
-        f("ior", ior, {.min = 1e-3, .max = 1000, .soft_max = 3, .help = "Index of refraction of the inside: water 1.33, glass 1.5, diamond 2.4."});
-        f("reflectance", reflectance, {.min = 0, .max = 1, .help = "A factor on what is reflected."});
-        f("transmittance", transmittance, {.min = 0, .max = 1, .help = "A factor on what is refracted."});
+        f("ior", ior,
+          {.min = 1e-3,
+           .max = 1000,
+           .soft_max = 3,
+           .help = "Index of refraction of the inside: water 1.33, glass 1.5, diamond 2.4."});
+        f("reflectance", reflectance,
+          {.min = 0, .max = 1, .help = "A factor on what is reflected."});
+        f("transmittance", transmittance,
+          {.min = 0, .max = 1, .help = "A factor on what is refracted."});
     }
 };
 
 struct RoughDielectric {
     static constexpr schema::TypeInfo info{
-        .category = "bsdf", .type = "roughdielectric", .help = "A boundary of microscopic facets: frosted glass, ice (Walter et al. 2007)."};
+        .category = "bsdf",
+        .type = "roughdielectric",
+        .help = "A boundary of microscopic facets: frosted glass, ice (Walter et al. 2007)."};
     Input<float> ior{1.5f};
     Input<Color> reflectance{Color(1)};
     Input<Color> transmittance{Color(1)};
@@ -76,10 +95,14 @@ struct RoughDielectric {
 
     template <class F>
     constexpr void describe(F&& f) {
-        f("ior", ior, {.min = 1e-3, .max = 1000, .soft_max = 3, .help = "Index of refraction of the inside."});
-        f("reflectance", reflectance, {.min = 0, .max = 1, .help = "A factor on what is reflected."});
-        f("transmittance", transmittance, {.min = 0, .max = 1, .help = "A factor on what is refracted."});
-        f("roughness", roughness, {.min = 0, .max = 1, .help = "0 is smooth, 1 is dull; alpha = max(roughness^2, 0.001)."});
+        f("ior", ior,
+          {.min = 1e-3, .max = 1000, .soft_max = 3, .help = "Index of refraction of the inside."});
+        f("reflectance", reflectance,
+          {.min = 0, .max = 1, .help = "A factor on what is reflected."});
+        f("transmittance", transmittance,
+          {.min = 0, .max = 1, .help = "A factor on what is refracted."});
+        f("roughness", roughness,
+          {.min = 0, .max = 1, .help = "0 is smooth, 1 is dull; alpha = max(roughness^2, 0.001)."});
         f("distribution", distribution, {.help = "Distribution of the facets' normals."});
     }
 };
@@ -97,10 +120,19 @@ struct Principled {
 
     template <class F>
     constexpr void describe(F&& f) {
-        f("baseColor", base_color, {.min = 0, .max = 1, .help = "Colour of the matte part, and of the metal's reflection."});
-        f("roughness", roughness, {.min = 0, .max = 1, .help = "0 is a mirror, 1 is dull; alpha = max(roughness^2, 0.001)."});
-        f("metallic", metallic, {.min = 0, .max = 1, .help = "0 is plastic, wood, stone; 1 is metal."});
-        f("specular", specular, {.min = 0, .max = 1, .help = "Strength of the uncoloured reflection: F = specular * Schlick(0.08 (1 - metallic))."});
+        f("baseColor", base_color,
+          {.min = 0, .max = 1, .help = "Colour of the matte part, and of the metal's reflection."});
+        f("roughness", roughness,
+          {.min = 0,
+           .max = 1,
+           .help = "0 is a mirror, 1 is dull; alpha = max(roughness^2, 0.001)."});
+        f("metallic", metallic,
+          {.min = 0, .max = 1, .help = "0 is plastic, wood, stone; 1 is metal."});
+        f("specular", specular,
+          {.min = 0,
+           .max = 1,
+           .help = "Strength of the uncoloured reflection: F = specular * Schlick(0.08 (1 - "
+                   "metallic))."});
     }
 };
 
@@ -117,10 +149,18 @@ struct VolumeBoundary {
 
     template <class F>
     constexpr void describe(F&& f) {
-        f("absorption", absorption, {.unit = "1/scene", .min = 0, .help = "Absorption coefficient at density 1."});
-        f("scatter", scatter, {.unit = "1/scene", .min = 0, .help = "Scattering coefficient at density 1."});
-        f("phase", phase, {.min = -0.999, .max = 0.999, .help = "Henyey-Greenstein g: -1 backwards, 0 evenly, 1 forwards."});
-        f("baseColor", base_color, {.min = 0, .max = 1, .help = "Fraction of scattered light that is not absorbed, by colour."});
+        f("absorption", absorption,
+          {.unit = "1/scene", .min = 0, .help = "Absorption coefficient at density 1."});
+        f("scatter", scatter,
+          {.unit = "1/scene", .min = 0, .help = "Scattering coefficient at density 1."});
+        f("phase", phase,
+          {.min = -0.999,
+           .max = 0.999,
+           .help = "Henyey-Greenstein g: -1 backwards, 0 evenly, 1 forwards."});
+        f("baseColor", base_color,
+          {.min = 0,
+           .max = 1,
+           .help = "Fraction of scattered light that is not absorbed, by colour."});
     }
 };
 
@@ -129,7 +169,9 @@ using Material = std::variant<Diffuse, Conductor, RoughConductor, Dielectric, Ro
 
 struct LambertianEmission {
     static constexpr schema::TypeInfo info{
-        .category = "emission", .type = "lambertian", .help = "Emits the same radiance in all directions, from the front side only."};
+        .category = "emission",
+        .type = "lambertian",
+        .help = "Emits the same radiance in all directions, from the front side only."};
     Input<Color> emission{Color(1)};
 
     template <class F>
@@ -163,9 +205,13 @@ struct HomogeneousMedium {
 
     template <class F>
     constexpr void describe(F&& f) {
-        f("absorption", absorption, {.unit = "1/scene", .min = 0, .help = "Absorption coefficient."});
+        f("absorption", absorption,
+          {.unit = "1/scene", .min = 0, .help = "Absorption coefficient."});
         f("scatter", scatter, {.unit = "1/scene", .min = 0, .help = "Scattering coefficient."});
-        f("phase", phase, {.min = -0.999, .max = 0.999, .help = "Henyey-Greenstein g: -1 backwards, 0 evenly, 1 forwards."});
+        f("phase", phase,
+          {.min = -0.999,
+           .max = 0.999,
+           .help = "Henyey-Greenstein g: -1 backwards, 0 evenly, 1 forwards."});
     }
 };
 

@@ -6,24 +6,27 @@
 #include <string_view>
 #include <variant>
 
-#include "schema/describe.h"
 #include "scene/handles.h"
+#include "schema/describe.h"
 
 namespace weft::scene {
 
 /// One struct per sampler type: all have the same parameter.
 template <class Type>
 struct SamplerSettings {
-    static constexpr schema::TypeInfo info{.category = "sampler", .type = Type::name, .help = Type::help};
+    static constexpr schema::TypeInfo info{
+        .category = "sampler", .type = Type::name, .help = Type::help};
     int count = 64;
 
     template <class F>
     constexpr void describe(F&& f) {
-        f("count", count, {.min = 1, .max = 16777216, .soft_max = 4096, .help = "Samples per pixel."});
+        f("count", count,
+          {.min = 1, .max = 16777216, .soft_max = 4096, .help = "Samples per pixel."});
     }
 };
 struct SobolType {
-    static constexpr std::string_view name = "sobol", help = "Owen-scrambled Sobol points: the default.";
+    static constexpr std::string_view name = "sobol",
+                                      help = "Owen-scrambled Sobol points: the default.";
 };
 struct HaltonType {
     static constexpr std::string_view name = "halton", help = "Scrambled Halton points.";
@@ -50,16 +53,25 @@ struct RenderTarget {
     template <class F>
     constexpr void describe(F&& f) {
         f("scene", scene, {.required = true, .help = "What is rendered."});
-        f("sampler", sampler, {.help = "Samples per pixel and their pattern; Sobol with 64 where there is none."});
-        f("image", image, {.help = "The picture: `<image id=\"name\"/>` is written as name.exr beside the scene."});
+        f("sampler", sampler,
+          {.help = "Samples per pixel and their pattern; Sobol with 64 where there is none."});
+        f("image", image,
+          {.help = "The picture: `<image id=\"name\"/>` is written as name.exr beside the scene."});
         f("filter", filter, {.help = "Pixel filter."});
-        f("filterWidth", filter_width, {.unit = "pixels", .min = 0, .max = 16, .help = "Full width of the filter; 0 = the usual one (box 1, tent 2, Gaussian 3, Blackman-Harris 3)."});
+        f("filterWidth", filter_width,
+          {.unit = "pixels",
+           .min = 0,
+           .max = 16,
+           .help = "Full width of the filter; 0 = the usual one (box 1, tent 2, Gaussian 3, "
+                   "Blackman-Harris 3)."});
     }
 };
 
 struct CameraIntegrator {
     static constexpr schema::TypeInfo info{
-        .category = "integrator", .type = "camera", .help = "Draws the directions of camera rays and a grid, for debugging cameras."};
+        .category = "integrator",
+        .type = "camera",
+        .help = "Draws the directions of camera rays and a grid, for debugging cameras."};
     RenderTarget target;
     bool grid = true;
     Color grid_color{0};
@@ -68,7 +80,9 @@ struct CameraIntegrator {
     template <class F>
     constexpr void describe(F&& f) {
         f.group(target);
-        f("grid", grid, {.help = "Draw the grid in the plane z = 1; without it, the direction itself is the colour."});
+        f("grid", grid,
+          {.help = "Draw the grid in the plane z = 1; without it, the direction itself is the "
+                   "colour."});
         f("gridColor", grid_color, {.help = "Colour of the grid's lines."});
         f("gridFrequency", grid_frequency, {.min = 0, .help = "Lines per scene unit."});
     }
@@ -89,14 +103,19 @@ struct AovIntegrator {
     template <class F>
     constexpr void describe(F&& f) {
         f.group(target);
-        f("variable", variable, {.help = "normals: shading normal as (n + 1) / 2; distance; uv; bvh: the kernel does not count its steps, so this draws the bounding-volume depth proxy 1 on a hit and 0 elsewhere."});
+        f("variable", variable,
+          {.help = "normals: shading normal as (n + 1) / 2; distance; uv; bvh: the kernel does not "
+                   "count its steps, so this draws the bounding-volume depth proxy 1 on a hit and "
+                   "0 elsewhere."});
         f("scale", scale, {.min = 1e-12, .help = "Divides the value."});
     }
 };
 
 struct NormalIntegrator {
     static constexpr schema::TypeInfo info{
-        .category = "integrator", .type = "normal", .help = "Draws the shading normal at the first hit; black where there is none."};
+        .category = "integrator",
+        .type = "normal",
+        .help = "Draws the shading normal at the first hit; black where there is none."};
     RenderTarget target;
     bool remap = true;
 
@@ -109,7 +128,9 @@ struct NormalIntegrator {
 
 struct AlbedoIntegrator {
     static constexpr schema::TypeInfo info{
-        .category = "integrator", .type = "albedo", .help = "Draws the fraction of light that the first surface scatters."};
+        .category = "integrator",
+        .type = "albedo",
+        .help = "Draws the fraction of light that the first surface scatters."};
     RenderTarget target;
 
     template <class F>
@@ -120,7 +141,9 @@ struct AlbedoIntegrator {
 
 struct DirectIntegrator {
     static constexpr schema::TypeInfo info{
-        .category = "integrator", .type = "direct", .help = "Light that reaches the camera over at most one surface."};
+        .category = "integrator",
+        .type = "direct",
+        .help = "Light that reaches the camera over at most one surface."};
     RenderTarget target;
 
     template <class F>
@@ -144,26 +167,33 @@ struct PathIntegrator {
         .category = "integrator",
         .type = "path",
         .help = "All light, over any number of surfaces and media.",
-        .example = "<integrator type=\"path\" depth=\"16\">\n  <ref id=\"scene\"/>\n"
-                   "  <sampler type=\"sobol\" count=\"256\"/>\n  <image id=\"picture\"/>\n</integrator>"};
+        .example =
+            "<integrator type=\"path\" depth=\"16\">\n  <ref id=\"scene\"/>\n"
+            "  <sampler type=\"sobol\" count=\"256\"/>\n  <image id=\"picture\"/>\n</integrator>"};
     RenderTarget target;
     int depth = 16;
     Strategy strategy = Strategy::mis;
-    int roulette_depth = 2;
+    int roulette_depth = 3;
 
     template <class F>
     constexpr void describe(F&& f) {
         f.group(target);
         f("depth", depth, kDepthAttr);
-        f("strategy", strategy, {.help = "How light is found: by the lights (nee), by the surfaces (bsdf), or both combined by multiple importance sampling (mis). All have the same mean."});
-        f("rouletteDepth", roulette_depth, {.min = 1, .max = 100000, .help = "Vertices of a path that Russian roulette leaves alone."});
+        f("strategy", strategy,
+          {.help = "How light is found: by the lights (nee), by the surfaces (bsdf), or both "
+                   "combined by multiple importance sampling (mis). All have the same mean."});
+        f("rouletteDepth", roulette_depth,
+          {.min = 1,
+           .max = 100000,
+           .help = "Vertices of a path that Russian roulette leaves alone."});
     }
 };
 
 /// lightwave's names for the path integrator with a fixed strategy.
 template <class Type>
 struct NamedPathIntegrator {
-    static constexpr schema::TypeInfo info{.category = "integrator", .type = Type::name, .help = Type::help};
+    static constexpr schema::TypeInfo info{
+        .category = "integrator", .type = Type::name, .help = Type::help};
     RenderTarget target;
     int depth = 2;
 
@@ -182,10 +212,9 @@ struct MisType {
     static constexpr Strategy strategy = Strategy::mis;
 };
 
-using Integrator =
-    std::variant<CameraIntegrator, AovIntegrator, NormalIntegrator, AlbedoIntegrator,
-                 DirectIntegrator, PathIntegrator, NamedPathIntegrator<PathtracerType>,
-                 NamedPathIntegrator<MisType>>;
+using Integrator = std::variant<CameraIntegrator, AovIntegrator, NormalIntegrator, AlbedoIntegrator,
+                                DirectIntegrator, PathIntegrator,
+                                NamedPathIntegrator<PathtracerType>, NamedPathIntegrator<MisType>>;
 
 /// The picture that an integrator makes.
 struct ImageOutput {
@@ -200,13 +229,17 @@ struct ImageTest {
     static constexpr schema::TypeInfo info{
         .category = "test",
         .type = "image",
-        .help = "Renders its integrator to ID_test.exr beside the scene and compares with ID_ref.exr."};
+        .help =
+            "Renders its integrator to ID_test.exr beside the scene and compares with ID_ref.exr."};
+    IntegratorId integrator;
     float mae = 0.1f;
     float me = 2e-4f;
 
     template <class F>
     constexpr void describe(F&& f) {
-        f("mae", mae, {.min = 0, .help = "Largest mean absolute error over all pixels and channels."});
+        f("integrator", integrator, {.required = true, .help = "What is rendered."});
+        f("mae", mae,
+          {.min = 0, .help = "Largest mean absolute error over all pixels and channels."});
         f("me", me, {.min = 0, .help = "Largest absolute value of the mean signed error."});
     }
 };

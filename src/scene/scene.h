@@ -21,7 +21,10 @@ namespace weft::scene {
 /// What stands directly inside `<scene>`.
 struct SceneContents {
     static constexpr schema::TypeInfo info{
-        .category = "scene", .type = "", .help = "A camera, lights and instances; also materials, textures and shapes with an id, for use by reference."};
+        .category = "scene",
+        .type = "",
+        .help = "A camera, lights and instances; also materials, textures and shapes with an id, "
+                "for use by reference."};
     CameraId camera;
     std::vector<LightId> lights;
     std::vector<InstanceId> instances;
@@ -32,7 +35,8 @@ struct SceneContents {
         f("camera", camera, {.required = true, .help = "The point of view."});
         f("light", lights, {.help = "The lights."});
         f("instance", instances, {.help = "What is there to be seen."});
-        f("medium", medium, {.help = "What fills all space that no shape fills: fog around the camera."});
+        f("medium", medium,
+          {.help = "What fills all space that no shape fills: fog around the camera."});
     }
 };
 

@@ -5,8 +5,8 @@
 #include <variant>
 #include <vector>
 
-#include "schema/describe.h"
 #include "scene/handles.h"
+#include "schema/describe.h"
 
 namespace weft::scene {
 
@@ -29,15 +29,20 @@ struct Rectangle {
 };
 
 struct MeshShape {
-    static constexpr schema::TypeInfo info{
-        .category = "shape", .type = "mesh", .help = "Triangles and polygons from a PLY or OBJ file."};
+    static constexpr schema::TypeInfo info{.category = "shape",
+                                           .type = "mesh",
+                                           .help =
+                                               "Triangles and polygons from a PLY or OBJ file."};
     FileName filename;
     bool smooth = true;
 
     template <class F>
     constexpr void describe(F&& f) {
-        f("filename", filename, {.required = true, .help = "A PLY (ASCII or binary) or OBJ file, relative to the scene file."});
-        f("smooth", smooth, {.help = "Interpolate the file's vertex normals; otherwise facets show."});
+        f("filename", filename,
+          {.required = true,
+           .help = "A PLY (ASCII or binary) or OBJ file, relative to the scene file."});
+        f("smooth", smooth,
+          {.help = "Interpolate the file's vertex normals; otherwise facets show."});
     }
 };
 
@@ -58,8 +63,10 @@ struct Group {
 using Shape = std::variant<Sphere, Rectangle, MeshShape, Group>;
 
 struct Instance {
-    static constexpr schema::TypeInfo info{
-        .category = "instance", .type = "", .help = "One shape at one place, with what it is made of."};
+    static constexpr schema::TypeInfo info{.category = "instance",
+                                           .type = "",
+                                           .help =
+                                               "One shape at one place, with what it is made of."};
     ShapeId shape;
     MaterialId bsdf;
     EmissionId emission;
@@ -75,12 +82,19 @@ struct Instance {
         f("shape", shape, {.required = true, .help = "What is put there."});
         f("bsdf", bsdf, {.help = "How its surface scatters light; without one it is black."});
         f("emission", emission, {.help = "Light that it emits."});
-        f("transform", transform, {.help = "From the shape's space to the world; mirroring and shear are welcome."});
-        f("normal", normal, {.help = "Tangent-space normal map, [0, 1] standing for [-1, 1]; load the image with linear=\"true\"."});
+        f("transform", transform,
+          {.help = "From the shape's space to the world; mirroring and shear are welcome."});
+        f("normal", normal,
+          {.help = "Tangent-space normal map, [0, 1] standing for [-1, 1]; load the image with "
+                   "linear=\"true\"."});
         f("alpha", alpha, {.min = 0, .max = 1, .help = "Opacity; 0 is not there at all."});
         f("volume", volume, {.help = "Density of the medium of a `volume` bsdf."});
         f("medium", medium, {.help = "What fills the inside of a closed shape."});
-        f("priority", priority, {.min = -1000, .max = 1000, .help = "Where closed dielectrics or media overlap, the higher priority is what is there (liquid in a glass: the glass higher)."});
+        f("priority", priority,
+          {.min = -1000,
+           .max = 1000,
+           .help = "Where closed dielectrics or media overlap, the higher priority is what is "
+                   "there (liquid in a glass: the glass higher)."});
     }
 };
 

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <variant>
 
-#include "schema/describe.h"
 #include "scene/handles.h"
+#include "schema/describe.h"
 
 namespace weft::scene {
 
@@ -24,7 +24,9 @@ struct ConstantTexture {
 enum class TextureBorder { repeat, clamp };
 constexpr auto choices(TextureBorder) { return std::array<std::string_view, 2>{"repeat", "clamp"}; }
 enum class TextureFilter { bilinear, nearest };
-constexpr auto choices(TextureFilter) { return std::array<std::string_view, 2>{"bilinear", "nearest"}; }
+constexpr auto choices(TextureFilter) {
+    return std::array<std::string_view, 2>{"bilinear", "nearest"};
+}
 
 /// Names as in MaterialX. Files of floats are linear whatever is said here.
 enum class ColorSpace { g22_rec709, srgb_texture, lin_rec709 };
@@ -48,12 +50,17 @@ struct ImageTexture {
 
     template <class F>
     constexpr void describe(F&& f) {
-        f("filename", filename, {.required = true, .help = "PNG, JPEG, EXR, HDR, TIFF, ...; relative to the scene file."});
+        f("filename", filename,
+          {.required = true,
+           .help = "PNG, JPEG, EXR, HDR, TIFF, ...; relative to the scene file."});
         f("exposure", exposure, {.min = 0, .help = "A factor on all values."});
-        f("border", border, {.help = "What lies outside of [0, 1]: the image again, or its border pixels."});
+        f("border", border,
+          {.help = "What lies outside of [0, 1]: the image again, or its border pixels."});
         f("filter", filter, {.help = "How values between pixel centres are made."});
         f("linear", linear, {.help = "The file holds data (roughness, normals), not colours."});
-        f("colorSpace", color_space, {.help = "How 8 and 16 bit files encode colours: a gamma of 2.2 as lightwave has it, sRGB's own curve, or not at all."});
+        f("colorSpace", color_space,
+          {.help = "How 8 and 16 bit files encode colours: a gamma of 2.2 as lightwave has it, "
+                   "sRGB's own curve, or not at all."});
     }
 };
 

@@ -25,16 +25,16 @@ namespace weft::schema {
 /// What a type is called in a file, and what it is for.
 struct TypeInfo {
     std::string_view category; ///< the tag, "light"
-    std::string_view type;     ///< the value of the type attribute, "point"; "" where there is one type
-    std::string_view help;     ///< one or two sentences
+    std::string_view type; ///< the value of the type attribute, "point"; "" where there is one type
+    std::string_view help; ///< one or two sentences
     std::string_view example = {}; ///< a snippet of a scene file
 };
 
 /// What a parameter means beyond its name, type and default.
 struct Attr {
     std::string_view unit = {}; ///< "deg", "W", "scene" (scene units), ...; "" = a plain number
-    double min = -std::numeric_limits<double>::infinity(); ///< smaller values are errors
-    double max = std::numeric_limits<double>::infinity();  ///< larger values are errors
+    double min = -std::numeric_limits<double>::infinity();     ///< smaller values are errors
+    double max = std::numeric_limits<double>::infinity();      ///< larger values are errors
     double soft_max = std::numeric_limits<double>::infinity(); ///< where a slider ends
     bool required = false;
     std::string_view help = {};
@@ -96,6 +96,8 @@ inline constexpr bool all_described = true;
 /// An enumeration whose values 0, 1, ... have names: `choices(E)` is found by argument-dependent
 /// lookup and returns an array of string views.
 template <class E>
-concept Choice = std::is_enum_v<E> && requires(E e) { choices(e); };
+concept Choice = std::is_enum_v<E> && requires(E e) {
+    choices(e);
+};
 
 } // namespace weft::schema

@@ -45,7 +45,8 @@ std::string help_text(Schema const& schema) {
         text += fmt::format(", default {}\n", default_text(f));
         text += fmt::format("  {:<16} {}\n", "", f.attr.help);
     }
-    if (!schema.info.example.empty()) text += fmt::format("\nExample:\n  {}\n", schema.info.example);
+    if (!schema.info.example.empty())
+        text += fmt::format("\nExample:\n  {}\n", schema.info.example);
     return text;
 }
 

@@ -62,7 +62,8 @@ std::string help_text(Schema const& schema);
 /// A reference page in Markdown for the types of one category.
 std::string reference_page(std::string const& category, std::vector<Schema> const& schemas);
 
-/// All schemas as JSON: {"version": 1, "types": [{"category", "type", "help", "parameters": [...]}]}.
+/// All schemas as JSON: {"version": 1, "types": [{"category", "type", "help", "parameters":
+/// [...]}]}.
 std::string to_json(std::vector<Schema> const& schemas);
 
 } // namespace weft::schema

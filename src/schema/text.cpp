@@ -2,7 +2,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <limits>
 
 namespace weft::schema {
 
@@ -23,13 +22,30 @@ std::string_view trimmed(std::string_view s) {
     return s;
 }
 
-/// Whether a double fits into a float: beyond that it would become infinite.
-bool fits_float(double v) { return std::abs(v) <= double(std::numeric_limits<float>::max()); }
+/// Whether a double rounds to a finite float: from half a step beyond the largest on it does not.
+bool fits_float(double v) { return std::abs(v) < 0x1.ffffffp127; }
 
 } // namespace
 
 std::string number_text(float value) { return shortest(value); }
 std::string number_text(double value) { return shortest(value); }
+
+std::string xml_text(std::string_view text) {
+    std::string result;
+    for (char c : text) {
+        if (c == '&')
+            result += "&amp;";
+        else if (c == '<')
+            result += "&lt;";
+        else if (c == '"')
+            result += "&quot;";
+        else if (static_cast<unsigned char>(c) < 32)
+            result += "&#" + std::to_string(int(c)) + ";";
+        else
+            result += c;
+    }
+    return result;
+}
 
 std::string numbers_text(std::span<float const> values) {
     std::string text;
@@ -69,7 +85,7 @@ std::optional<std::vector<double>> read_components(std::string_view text, int co
 
 bool TextForm<int>::read(std::string_view text, int& v) {
     text = trimmed(text);
-    if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+    if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
     int value = 0;
     auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size()) return false;
@@ -128,7 +144,9 @@ bool TextForm<Affined>::read(std::string_view text, Affined& m) {
     if (!read || read->size() != 16) return false;
     auto const& v = *read;
     if (v[12] != 0 || v[13] != 0 || v[14] != 0 || v[15] == 0) return false; // a projection
-    auto column = [&](int c) { return Vec3d(v[size_t(c)], v[size_t(4 + c)], v[size_t(8 + c)]) / v[15]; };
+    auto column = [&](int c) {
+        return Vec3d(v[size_t(c)], v[size_t(4 + c)], v[size_t(8 + c)]) / v[15];
+    };
     m = {column(0), column(1), column(2), column(3)};
     return true;
 }

@@ -1,8 +1,8 @@
 // The text form of every parameter type: how it is written in a scene file and read back.
 //
 // Numbers are separated by commas, spaces or both; one number stands for all components of a
-// colour or vector. `read` returns a description of what was expected where the text is wrong,
-// and nothing else: locations are the reader's business.
+// colour or vector. Whether a text is understood is all that `read` tells: messages and locations
+// are the reader's business.
 #pragma once
 
 #include <optional>
@@ -18,6 +18,10 @@ namespace weft::schema {
 /// Shortest decimal that reads back as the same float ("0.1", "1e-06", "inf").
 std::string number_text(float value);
 std::string number_text(double value);
+
+/// `text` with the characters escaped that an XML attribute cannot hold.
+std::string xml_text(std::string_view text);
+
 std::string numbers_text(std::span<float const> values);
 
 /// The numbers in `text`, or nothing where something else stands there (NaN and infinity are
@@ -80,7 +84,8 @@ struct TextForm<FileName> {
 
 template <>
 struct TextForm<Color> {
-    static constexpr std::string_view kind = "color", expected = "1 or 3 numbers (red, green, blue)";
+    static constexpr std::string_view kind = "color",
+                                      expected = "1 or 3 numbers (red, green, blue)";
     static std::string write(Color const& v);
     static bool read(std::string_view text, Color& v);
 };
@@ -102,7 +107,8 @@ struct TextForm<Vec2> {
 /// Transforms are written as their matrix; their other spellings are child tags.
 template <>
 struct TextForm<Affined> {
-    static constexpr std::string_view kind = "transform", expected = "16 numbers, row by row";
+    static constexpr std::string_view kind = "transform";
+    static constexpr std::string_view expected = "16 numbers, row by row, the last row 0,0,0,1";
     static std::string write(Affined const& v);
     static bool read(std::string_view text, Affined& v);
 };
@@ -124,12 +130,14 @@ struct TextForm<E> {
 
 template <class T>
 struct TextForm<Input<T>> {
-    static constexpr std::string_view kind = std::is_same_v<T, float> ? "float or texture"
-                                                                      : "color or texture";
+    static constexpr std::string_view kind =
+        std::is_same_v<T, float> ? "float or texture" : "color or texture";
     static constexpr std::string_view expected = TextForm<T>::expected;
     static std::string category() { return "texture"; }
     static std::string write(Input<T> const& v) { return TextForm<T>::write(v.value); }
-    static bool read(std::string_view text, Input<T>& v) { return TextForm<T>::read(text, v.value); }
+    static bool read(std::string_view text, Input<T>& v) {
+        return TextForm<T>::read(text, v.value);
+    }
 };
 
 template <class Kind>
@@ -173,7 +181,8 @@ std::string write_attributes(T object) {
     object.describe(detail::TextCollector{values});
     std::string text;
     for (size_t i = 0; i < values.size(); ++i)
-        if (values[i] != defaults[i]) text += " " + values[i].first + "=\"" + values[i].second + "\"";
+        if (values[i] != defaults[i])
+            text += " " + values[i].first + "=\"" + xml_text(values[i].second) + "\"";
     return text;
 }
 

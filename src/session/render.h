@@ -34,7 +34,7 @@ struct RenderOptions {
     std::atomic<bool> const* cancel = nullptr;        ///< set to stop at the next tile
 };
 
-/// A sample whose value was not finite or negative; it counts as black.
+/// A sample whose value was not finite; it counts as black.
 struct BadSample {
     Vec2i pixel;
     uint32_t sample;

@@ -34,6 +34,15 @@ std::vector<float> environment_cells(shading::Textures const& textures, scene::I
     return cells;
 }
 
+/// The triangle wound counter-clockwise about its vertex normals, which say where the front is.
+lights::MeshEmitter::Triangle front_first(TriangleData const& data, scene::Mesh::Triangle const& t) {
+    auto const& [a, b, c] = t.v;
+    if (data.normals.empty()) return {a, b, c};
+    Vec3 const normal = cross(data.positions[b] - data.positions[a], data.positions[c] - data.positions[a]);
+    bool const agrees = (dot(normal, data.normals[a] + data.normals[b] + data.normals[c]) < 0) == data.mirrored;
+    return agrees ? lights::MeshEmitter::Triangle{a, b, c} : lights::MeshEmitter::Triangle{a, c, b};
+}
+
 } // namespace
 
 float mean_luminance(shading::Textures const& textures, scene::Input<Color> const& input) {
@@ -57,11 +66,11 @@ void WorldBuilder::add_area_lights(std::vector<Light>& lights, std::vector<float
             if (object.instanced)
                 for (Vec3& p : positions) p = object.to_world.point(p);
             std::vector<lights::MeshEmitter::Triangle> triangles;
-            for (auto const& t : data.source->triangles) triangles.push_back({t.v[0], t.v[1], t.v[2]});
+            for (auto const& t : data.source->triangles) triangles.push_back(front_first(data, t));
             return lights::MeshEmitter(std::move(positions), std::move(triangles), data.source->uvs,
                                        object.to_world.determinant() < 0);
         };
-        AreaLight light{make(), object.emission, index};
+        AreaLight light{make(), object.emission, object.alpha};
         float const area = match(light.emitter, [](auto const& e) { return e.area(); });
         object.light = int32_t(lights.size());
         weights.push_back(weight * kPi * area * mean_luminance(world_.textures_, emission.emission));

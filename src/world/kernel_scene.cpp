@@ -33,7 +33,10 @@ void filter_closest(RTCFilterFunctionNArguments const* args) {
     auto const& context = *reinterpret_cast<FilterContext const*>(args->context);
     if (args->valid[0] == 0) return;
     uint32_t const object = hit_object(args), primitive = RTCHitN_primID(args->hit, 1, 0);
-    float const u = to_unit_float(hash_combine(hash_combine(context.seed, object), primitive));
+    // A sphere is one primitive that the ray may meet twice.
+    bool const back = RTCHitN_Ng_x(args->hit, 1, 0) * RTCRayN_dir_x(args->ray, 1, 0) + RTCHitN_Ng_y(args->hit, 1, 0) * RTCRayN_dir_y(args->ray, 1, 0) +
+                          RTCHitN_Ng_z(args->hit, 1, 0) * RTCRayN_dir_z(args->ray, 1, 0) > 0;
+    float const u = to_unit_float(hash_combine(hash_combine(context.seed, object), 2 * primitive + back));
     if (u >= hit_opacity(args, context, object)) args->valid[0] = 0;
 }
 

@@ -37,7 +37,7 @@ LightSample LightTable::sample_light(AreaLight const& l, Vec3 const& ref, Vec2 u
     if (!(s.pdf > 0) || dot(s.n, s.wi) >= 0) return sample; // nothing, or its back
     sample.wi = s.wi;
     sample.distance = s.distance;
-    sample.radiance = textures_->at(emissions_[size_t(l.emission.index)].emission, s.uv);
+    sample.radiance = textures_->at(emissions_[size_t(l.emission.index)].emission, s.uv) * textures_->at(l.alpha, s.uv);
     sample.pdf = s.pdf;
     // As far off the light as a ray that leaves it would start.
     Vec3 const extent = abs(s.p) + Vec3(std::sqrt(match(l.emitter, [](auto const& e) { return e.area(); })));

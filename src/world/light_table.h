@@ -20,7 +20,7 @@ namespace weft::world {
 struct AreaLight {
     lights::Emitter emitter;
     scene::EmissionId emission;
-    uint32_t object = 0;
+    scene::Input<float> alpha{1}; ///< rays that look for it miss it where it is not there
 };
 
 struct EnvironmentLight {

@@ -26,7 +26,7 @@ namespace weft::world {
 /// A triangle mesh as the render reads it, in the space of its object.
 struct TriangleData {
     std::vector<Vec3> positions;              ///< one more than there are, for the kernel's loads
-    std::vector<Vec3> normals;                ///< unit; empty: flat
+    std::vector<Vec3> normals;                ///< of any length, to be interpolated; empty: flat
     std::shared_ptr<scene::Mesh const> source; ///< indices and uvs
     bool mirrored = false;                    ///< counter-clockwise is the back
 };

@@ -116,8 +116,9 @@ void WorldBuilder::add_object(scene::Shape const& shape, int32_t instance, Inher
         object.is_null = shading::is_null_boundary(material);
         object.has_interior = shading::is_transmissive(material);
     }
-    // A medium without a surface material is bounded by nothing.
-    if (!given.material && object.medium >= 0) object.is_null = object.has_interior = true;
+    // A medium without a surface material is bounded by nothing, and nothing does not shine.
+    if (!given.material && !given.emission && object.medium >= 0) object.is_null = object.has_interior = true;
+    if (object.is_null) object.emission = {};
     world_.has_alpha_ |= object.has_alpha;
     world_.has_media_ |= object.is_null || object.medium >= 0;
 
@@ -173,7 +174,10 @@ int32_t WorldBuilder::baked_triangles(std::shared_ptr<scene::Mesh const> mesh, b
     if (smooth && !mesh->normals.empty()) {
         Affined const inverse = transform.inverse();
         data.normals.reserve(mesh->normals.size());
-        for (Vec3 const& n : mesh->normals) data.normals.push_back(Vec3(normalize(inverse.transposed(Vec3d(n)))));
+        // Not to length 1: an instance's normals are interpolated before they are transformed, and
+        // both ways are to give the same. The factor keeps them near it.
+        double const scale = std::cbrt(std::abs(transform.determinant()));
+        for (Vec3 const& n : mesh->normals) data.normals.push_back(Vec3(inverse.transposed(Vec3d(n)) * scale));
     }
     data.source = std::move(mesh);
     world_.triangles_.push_back(std::move(data));

@@ -34,19 +34,21 @@ inline std::vector<Configuration<SpecularReflection>> test_configurations<Specul
 
 template <>
 inline std::vector<Configuration<SpecularDielectric>> test_configurations<SpecularDielectric>() {
-    return {{"SpecularDielectric entering", {1.5f}},
-            {"SpecularDielectric leaving", {1 / 1.5f}},
-            {"SpecularDielectric matched", {1.f}},
-            {"SpecularDielectric tinted", {1.33f, Color(0.9f, 0.5f, 0.1f), Color(0.2f, 0.3f, 0.7f)}},
-            {"SpecularDielectric mirror only", {1.5f, Color(1), Color(0)}},
-            {"SpecularDielectric black", {1.5f, Color(0), Color(0)}}};
+    return {
+        {"SpecularDielectric entering", {1.5f}},
+        {"SpecularDielectric leaving", {1 / 1.5f}},
+        {"SpecularDielectric matched", {1.f}},
+        {"SpecularDielectric tinted", {1.33f, Color(0.9f, 0.5f, 0.1f), Color(0.2f, 0.3f, 0.7f)}},
+        {"SpecularDielectric mirror only", {1.5f, Color(1), Color(0)}},
+        {"SpecularDielectric black", {1.5f, Color(0), Color(0)}}};
 }
 
 template <class Distribution>
-std::vector<Configuration<MicrofacetReflection<Distribution>>> reflections(std::string const& name) {
+std::vector<Configuration<MicrofacetReflection<Distribution>>>
+reflections(std::string const& name) {
     std::vector<Configuration<MicrofacetReflection<Distribution>>> all;
-    for (Vec2 const& a : {Vec2(1e-3f, 1e-3f), Vec2(0.02f, 0.02f), Vec2(0.1f, 0.1f), Vec2(0.5f, 0.5f),
-                         Vec2(1, 1), Vec2(0.05f, 0.4f), Vec2(0.8f, 2e-3f)}) {
+    for (Vec2 const& a : {Vec2(1e-3f, 1e-3f), Vec2(0.02f, 0.02f), Vec2(0.1f, 0.1f),
+                          Vec2(0.5f, 0.5f), Vec2(1, 1), Vec2(0.05f, 0.4f), Vec2(0.8f, 2e-3f)}) {
         all.push_back({name + " alpha " + std::to_string(a.x) + " " + std::to_string(a.y),
                        {{a.x, a.y}},
                        a.x == a.y,
@@ -56,7 +58,8 @@ std::vector<Configuration<MicrofacetReflection<Distribution>>> reflections(std::
 }
 
 template <class Distribution>
-std::vector<Configuration<MicrofacetDielectric<Distribution>>> dielectrics(std::string const& name) {
+std::vector<Configuration<MicrofacetDielectric<Distribution>>>
+dielectrics(std::string const& name) {
     struct Parameters {
         float alpha_x, alpha_y, eta;
         Color reflectance{1.f}, transmittance{1.f};
@@ -115,8 +118,7 @@ L seen_from_behind(L const& lobe) {
 }
 template <class D>
 MicrofacetDielectric<D> seen_from_behind(MicrofacetDielectric<D> const& lobe) {
-    // Tints are recovered from the lobe's own words by the caller; white ones suffice here.
-    return {lobe.distribution(), 1 / lobe.eta()};
+    return {lobe.distribution(), 1 / lobe.eta(), lobe.reflectance(), lobe.transmittance()};
 }
 
 /// Calls f(configuration) for every configuration of every alternative that satisfies `Smooth`.

@@ -17,7 +17,7 @@ constexpr double kAlpha = 0.01; // over each test
 constexpr float kAngles[] = {0.5f, 45, 80, 89};
 
 TEST(SmoothLobes, SamplesFollowTheDensity) {
-    constexpr int samples = 1 << 16;
+    constexpr int samples = 1 << 17;
     struct Outcome {
         std::string name;
         SphereTest test;
@@ -28,8 +28,8 @@ TEST(SmoothLobes, SamplesFollowTheDensity) {
             Vec3 const wo = at_angle(angle);
             SphereChiSquare test([&](Vec3 const& u) { return c.lobe.sample(wo, u); },
                                  [&](Vec3 const& wi) { return c.lobe.eval(wo, wi).pdf; });
-            outcomes.push_back({c.name + " at " + std::to_string(angle),
-                                test.run(outcomes.size() + 1, samples)});
+            outcomes.push_back(
+                {c.name + " at " + std::to_string(angle), test.run(outcomes.size() + 1, samples)});
         }
     });
     int const count = int(outcomes.size());
@@ -37,15 +37,15 @@ TEST(SmoothLobes, SamplesFollowTheDensity) {
     double worst_integral = 0;
     for (auto const& [name, test] : outcomes) {
         EXPECT_GE(test.chi_square.p_value, level)
-            << name << ": chi-square " << test.chi_square.statistic << " of "
-            << test.chi_square.dof << " " << test.chi_square.problem;
+            << name << ": chi-square " << test.chi_square.statistic << " of " << test.chi_square.dof
+            << " " << test.chi_square.problem;
         // Two-sided binomial test at the same level, plus the quadrature's error.
         double const sigma = std::sqrt(test.success * (1 - test.success) / samples);
         double const difference = std::abs(test.integral - test.success);
         double const beyond = std::max(difference - 1e-3, 0.0);
         EXPECT_TRUE(beyond == 0 || weft::testing::normal_tail(beyond / sigma) >= level)
-            << name << ": the density integrates to " << test.integral << ", "
-            << test.success << " of the samples succeed";
+            << name << ": the density integrates to " << test.integral << ", " << test.success
+            << " of the samples succeed";
         if (test.success == 1) worst_integral = std::max(worst_integral, difference);
     }
     std::printf("%d chi-square tests; worst |integral - 1| without failures: %.2g\n", count,
@@ -54,8 +54,8 @@ TEST(SmoothLobes, SamplesFollowTheDensity) {
 
 /// The mean of f eta_scale / pdf over samples, per channel, with its variance.
 template <class L>
-std::array<weft::testing::Estimate, 3> monte_carlo_albedo(L const& lobe, Vec3 const& wo, int samples,
-                                                          uint64_t seed) {
+std::array<weft::testing::Estimate, 3> monte_carlo_albedo(L const& lobe, Vec3 const& wo,
+                                                          int samples, uint64_t seed) {
     Rng rng(seed);
     std::array<std::vector<double>, 3> values;
     for (int i = 0; i < samples; ++i) {

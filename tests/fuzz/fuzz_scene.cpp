@@ -1,0 +1,20 @@
+// A libFuzzer target: whatever the text, parse_scene returns jobs or throws InputError.
+//
+// Files are looked for in a folder that does not exist, so that no input reads the machine's own.
+// An absolute path still could: the reader takes regular files alone, whatever they hold.
+#include "io/scene_file.h"
+
+#include <cstddef>
+#include <cstdint>
+
+extern "C" int LLVMFuzzerTestOneInput(uint8_t const* data, size_t size) {
+    std::string_view const text(reinterpret_cast<char const*>(data), size);
+    try {
+        weft::io::SceneFile const file =
+            weft::io::parse_scene(text, "fuzz.xml", "/nonexistent/folder");
+        if (file.jobs.empty()) __builtin_trap(); // promised at least one
+    } catch (weft::InputError const&) {
+        // A refused file is the other good outcome.
+    }
+    return 0;
+}

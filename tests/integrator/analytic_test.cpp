@@ -1,0 +1,289 @@
+// Scenes whose pictures are known on paper.
+#include <gtest/gtest.h>
+
+#include "tests/support/scenes.h"
+
+namespace weft::integrator {
+namespace {
+
+using namespace weft::testing;
+
+std::string const kWhiteSky =
+    R"(<light type="envmap"><texture type="constant" value="1"/></light>)";
+/// A camera at `origin` that sees almost nothing but the direction to the origin.
+std::string narrow_camera(std::string const& origin, std::string const& up = "0,1,0") {
+    return R"(<camera type="perspective" width="4" height="4" fov="0.01"><transform><lookat origin=")" +
+           origin + R"(" target="0,0,0" up=")" + up + R"("/></transform></camera>)";
+}
+std::string const kCamera =
+    R"(<camera type="perspective" width="8" height="8" fov="40"><transform><translate z="-4"/></transform></camera>)";
+
+/// z-tests of every block and colour against one value; `alpha` for all of them together.
+void expect_mean(TestScene const& scene, Color const& truth, int samples, uint32_t seed,
+                 std::string const& what, double alpha = 1e-3) {
+    auto const estimates = block_estimates(scene, samples, 4, seed);
+    double const level = sidak(alpha, int(estimates.size()));
+    for (size_t i = 0; i < estimates.size(); ++i) {
+        double const expected = double(truth[int(i % 3)]);
+        EXPECT_GT(difference_p_value(estimates[i], {expected, 0}), level)
+            << what << ", block " << i / 3 << ", channel " << i % 3 << ": " << estimates[i].mean
+            << " +- " << std::sqrt(estimates[i].variance) << " instead of " << expected;
+    }
+}
+
+TEST(Furnace, WhiteDiffuseDisappears) {
+    // Around a convex object every path ends in the sky after one bounce, at any depth from 2 on.
+    for (char const* depth : {"2", "3", "16", "-1"})
+        for (char const* strategy : {"mis", "nee", "bsdf"}) {
+            auto const scene = make_scene(
+                kCamera + kWhiteSky +
+                    R"(<instance><shape type="sphere"/><bsdf type="diffuse" albedo="1"/></instance>)",
+                std::string("type=\"path\" depth=\"") + depth + "\" strategy=\"" + strategy + "\"");
+            expect_mean(scene, Color(1), 500, 1, std::string("depth ") + depth + ", " + strategy);
+        }
+}
+
+TEST(Furnace, SmoothGlassDisappears) {
+    for (char const* ior : {"1.5", "1.1", "2.4"}) {
+        auto const scene =
+            make_scene(kCamera + kWhiteSky +
+                           R"(<instance><shape type="sphere"/><bsdf type="dielectric" ior=")" +
+                           ior + R"("/></instance>)",
+                       "type=\"path\" depth=\"-1\" rouletteDepth=\"1000\"");
+        expect_mean(scene, Color(1), 500, 2, std::string("ior ") + ior);
+    }
+}
+
+TEST(Furnace, NestedGlassDisappears) {
+    // Overlapping glasses of different priorities, as liquid in a glass: energy is kept all the
+    // same. (Of equal ones, what is there depends on the way in, and light can be caught.)
+    auto const scene = make_scene(kCamera + kWhiteSky + R"(
+        <instance priority="1"><shape type="sphere"/><bsdf type="dielectric" ior="1.33"/></instance>
+        <instance priority="2"><shape type="sphere"/><bsdf type="dielectric" ior="1.5"/><transform><translate x="0.4"/></transform></instance>
+        <instance priority="3"><shape type="sphere"/><bsdf type="dielectric" ior="1.8"/><transform><scale value="0.8"/><translate x="-0.3" y="0.2"/></transform></instance>)",
+                                  "type=\"path\" depth=\"-1\" rouletteDepth=\"1000\"");
+    expect_mean(scene, Color(1), 500, 3, "nested");
+}
+
+TEST(Furnace, RoughGlassLosesLittleAndGainsNothing) {
+    // Single scattering between facets loses what would need two bounces.
+    for (char const* roughness : {"0.1", "0.3", "0.6"}) {
+        auto const scene = make_scene(
+            kCamera + kWhiteSky +
+                R"(<instance><shape type="sphere"/><bsdf type="roughdielectric" roughness=")" +
+                roughness + R"("/></instance>)",
+            "type=\"path\" depth=\"-1\" rouletteDepth=\"1000\"");
+        for (Estimate const& e : block_estimates(scene, 1000, 4, 4)) {
+            EXPECT_LT(e.mean, 1 + 4 * std::sqrt(e.variance) + 1e-5) << roughness;
+            EXPECT_GT(e.mean, 0.85) << roughness;
+        }
+    }
+}
+
+TEST(Furnace, ScatteringCubeDisappears) {
+    // Without absorption the cloud sends on all light that it gets.
+    for (char const* phase : {"0", "0.6", "-0.5"})
+        for (char const* strategy : {"mis", "bsdf", "nee"}) {
+            auto const scene = make_scene(
+                kCamera + kWhiteSky +
+                    R"(<instance><shape type="mesh" filename="cube.obj"/><bsdf type="volume" scatter="1,2,4" phase=")" +
+                    phase + R"("/>
+                <transform><rotate axis="1,1,0" angle="30"/></transform></instance>)",
+                std::string("type=\"path\" depth=\"-1\" strategy=\"") + strategy + "\"",
+                std::string(WEFT_SOURCE_DIR) + "/tests/integrator");
+            expect_mean(scene, Color(1), 400, 5, std::string("g ") + phase + ", " + strategy);
+        }
+}
+
+TEST(Irradiance, OfAPointLight) {
+    // E = I cos / r^2, L = E albedo / pi.
+    auto const scene =
+        make_scene(narrow_camera("0,3,-1") +
+                       R"(<instance><shape type="rectangle"/><bsdf type="diffuse" albedo="0.5"/>
+        <transform><scale value="3"/><rotate axis="1,0,0" angle="-90"/></transform></instance><light type="point" position="1,2,0" power="30,60,90"/>)",
+                   "type=\"path\" depth=\"-1\"");
+    double const r2 = 5, cosine = 2 / std::sqrt(r2);
+    float const unit = float(1 / (4 * M_PI) * cosine / r2 * 0.5 / M_PI);
+    for (Estimate const& e : block_estimates(scene, 4, 4, 1)) EXPECT_GT(e.mean, 0);
+    auto const e = block_estimates(scene, 16, 4, 1);
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(e[size_t(c)].mean / (30 * (c + 1) * double(unit)), 1, 1e-3);
+}
+
+TEST(Irradiance, OfADirectionalLight) {
+    auto const scene =
+        make_scene(narrow_camera("0,3,-1") +
+                   R"(<instance><shape type="rectangle"/><bsdf type="diffuse" albedo="0.5"/>
+        <transform><scale value="3"/><rotate axis="1,0,0" angle="-90"/></transform></instance><light type="directional" direction="3,4,0" intensity="1,2,3"/>)");
+    auto const e = block_estimates(scene, 4, 4, 1);
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(e[size_t(c)].mean / ((c + 1) * 0.8 * 0.5 / M_PI), 1, 1e-5);
+}
+
+TEST(Irradiance, OfAParallelDisk) {
+    // A sphere of radius R at distance d above: E = pi L (R / d)^2. Seen by all strategies.
+    for (char const* strategy : {"mis", "nee", "bsdf"}) {
+        auto const scene = make_scene(
+            narrow_camera("0,0.2,-3") +
+                R"(<instance><shape type="rectangle"/><bsdf type="diffuse" albedo="0.5,0.6,0.7"/>
+            <transform><scale value="0.5"/><rotate axis="1,0,0" angle="-90"/></transform></instance>
+            <light type="area"><instance><shape type="sphere"/><emission type="lambertian" emission="2"/><transform><scale value="1.5"/><translate y="3"/></transform></instance></light>)",
+            std::string("type=\"path\" depth=\"2\" strategy=\"") + strategy + "\"");
+        expect_mean(scene, Color(2 * 0.25f) * Color(0.5f, 0.6f, 0.7f), 5000, 6, strategy);
+    }
+}
+
+TEST(Irradiance, OfASquareAbove) {
+    // The form factor of a square of half edge a at height h above its centre, from the closed
+    // form of the rectangle with a corner above the point, four times.
+    double const a = 1, h = 2, X = a / h, s = std::sqrt(1 + X * X);
+    double const form = 4 * (1 / (2 * M_PI)) * 2 * (X / s) * std::atan(X / s);
+    for (char const* strategy : {"mis", "nee", "bsdf"}) {
+        auto const scene =
+            make_scene(narrow_camera("0,0.2,-3") +
+                           R"(<instance><shape type="rectangle"/><bsdf type="diffuse" albedo="0.5"/>
+            <transform><scale value="0.5"/><rotate axis="1,0,0" angle="-90"/></transform></instance>
+            <light type="area"><instance><shape type="rectangle"/><emission type="lambertian" emission="1,2,3"/><transform><rotate axis="1,0,0" angle="90"/><translate y="2"/></transform></instance></light>)",
+                       std::string("type=\"path\" depth=\"2\" strategy=\"") + strategy + "\"");
+        expect_mean(scene, Color(1, 2, 3) * float(0.5 * form), 5000, 7, strategy);
+    }
+}
+
+TEST(Slab, AbsorbsByBeersLaw) {
+    // The camera looks through a box of thickness 2, at the centre, towards a white sky.
+    Color const truth(std::exp(-2 * 0.5f), std::exp(-2 * 1.f), 1);
+    std::string const folder = std::string(WEFT_SOURCE_DIR) + "/tests/integrator";
+    std::string const box = "<instance><shape type=\"mesh\" filename=\"cube.obj\"/>";
+    auto const bare =
+        make_scene(narrow_camera("0,0,-4") + kWhiteSky + box +
+                       R"(<bsdf type="volume" absorption="0.5,1,0" scatter="0"/></instance>)",
+                   "type=\"path\" depth=\"1\"", folder);
+    expect_mean(bare, truth, 200, 8, "null boundary");
+    auto const without_bsdf =
+        make_scene(narrow_camera("0,0,-4") + kWhiteSky + box +
+                       R"(<medium type="homogeneous" absorption="0.5,1,0"/></instance>)",
+                   "type=\"path\" depth=\"1\"", folder);
+    expect_mean(without_bsdf, truth, 200, 9, "medium alone");
+    // Glass of normal reflectance R: (1 - R)^2 t is sent on at once, and R^2 t^2 more each time
+    // round; what is reflected sees the sky, too: all that is not absorbed.
+    auto const glass = make_scene(
+        narrow_camera("0,0,-4") + kWhiteSky + box +
+            R"(<bsdf type="dielectric" ior="1.5"/><medium type="homogeneous" absorption="0.5,1,0"/></instance>)",
+        "type=\"path\" depth=\"-1\" rouletteDepth=\"1000\"", folder);
+    auto through = [](double t) {
+        double const r = 0.04;
+        return r + (1 - r) * (1 - r) * t * (1 + r * t) / (1 - r * r * t * t);
+    };
+    Color const behind_glass(float(through(double(truth.r))), float(through(double(truth.g))), 1);
+    expect_mean(glass, behind_glass, 4000, 10, "glass");
+}
+
+TEST(Slab, CameraInsideKnowsIt) {
+    // From the centre of the box only half of it lies ahead.
+    std::string const folder = std::string(WEFT_SOURCE_DIR) + "/tests/integrator";
+    auto const scene = make_scene(
+        R"(<camera type="perspective" width="4" height="4" fov="0.01"/>)" + kWhiteSky +
+            R"(<instance><shape type="mesh" filename="cube.obj"/><bsdf type="volume" absorption="0.5,1,0" scatter="0"/></instance>)",
+        "type=\"path\" depth=\"1\"", folder);
+    expect_mean(scene, Color(std::exp(-0.5f), std::exp(-1.f), 1), 200, 11, "inside");
+}
+
+TEST(Slab, LightInsideIsWeakenedOnItsWay) {
+    // A point light in an absorbing ball of radius 2 around the plane's point: exp(-sigma r).
+    auto const scene =
+        make_scene(narrow_camera("0,5,-0.5") +
+                       R"(<instance><shape type="rectangle"/><bsdf type="diffuse" albedo="0.5"/>
+        <transform><scale value="0.1"/><rotate axis="1,0,0" angle="-90"/></transform></instance>
+        <instance><shape type="sphere"/><bsdf type="volume" absorption="0.3,1,0" scatter="0"/><transform><scale value="2"/></transform></instance>
+        <light type="point" position="0,3,0" power="30"/>)",
+                   "type=\"path\" depth=\"2\"");
+    double const unit = 30 / (4 * M_PI) / 9 * 0.5 / M_PI;
+    // Light and camera each look through the ball's upper half.
+    Color const truth(float(unit * std::exp(-4 * 0.3)), float(unit * std::exp(-4.0)), float(unit));
+    auto const e = block_estimates(scene, 20000, 4, 12);
+    for (int c = 0; c < 3; ++c)
+        EXPECT_LT(std::abs(e[size_t(c)].mean - double(truth[c])),
+                  4.5 * std::sqrt(e[size_t(c)].variance) + 1e-3 * double(truth[c]))
+            << c << ": " << e[size_t(c)].mean;
+}
+
+TEST(Alpha, TenCardsLetAThousandthThrough) {
+    std::string cards;
+    for (int i = 0; i < 10; ++i)
+        cards +=
+            R"(<instance alpha="0.5"><shape type="rectangle"/><transform><scale value="9"/><translate x="1" z=")" +
+            std::to_string(i) + R"("/></transform></instance>)";
+    // Seen by the camera: by chance. The light is behind the cards; the cards are black.
+    auto const seen =
+        make_scene(narrow_camera("0,0,-4") + cards + kWhiteSky, "type=\"path\" depth=\"2\"");
+    expect_mean(seen, Color(1 / 1024.f), 100000, 13, "seen");
+    // By a floor's light samples: shadow rays multiply.
+    auto const floor = [&](char const* strategy) {
+        return make_scene(
+            R"(<camera type="perspective" width="4" height="4" fov="0.01"><transform><translate z="-1"/></transform></camera>
+            <instance><shape type="rectangle"/><bsdf type="diffuse" albedo="1"/><transform><scale value="0.5"/><translate z="-0.5"/></transform></instance>)" +
+                cards + R"(<light type="directional" direction="0,0,1" intensity="1"/>)",
+            std::string("type=\"path\" depth=\"2\" strategy=\"") + strategy + "\"");
+    };
+    for (char const* strategy : {"mis", "nee"})
+        for (Estimate const& e : block_estimates(floor(strategy), 4, 4, 14))
+            EXPECT_EQ(e.mean, 0) << "the camera sees the floor's other side";
+    auto const lit = make_scene(
+        R"(<camera type="perspective" width="4" height="4" fov="0.01"><transform><lookat origin="0.5,0,-0.25" target="0,0,-0.5"/></transform></camera>
+        <instance><shape type="rectangle"/><bsdf type="diffuse" albedo="1"/><transform><scale value="0.5"/><translate z="-0.5"/></transform></instance>)" +
+            cards + R"(<light type="directional" direction="0,0,1" intensity="1"/>)",
+        "type=\"path\" depth=\"2\"");
+    for (Estimate const& e : block_estimates(lit, 4, 4, 15))
+        EXPECT_NEAR(e.mean, 1 / M_PI / 1024, 1e-8);
+}
+
+TEST(Roulette, KeepsTheMean) {
+    std::string const contents =
+        R"(<camera type="perspective" width="8" height="8" fov="60"><transform><translate z="-0.9"/></transform></camera>
+        <instance><shape type="mesh" filename="cube.obj"/><bsdf type="diffuse" albedo="0.8,0.5,0.2"/><transform><scale value="2"/></transform></instance>
+        <instance><shape type="sphere"/><bsdf type="roughdielectric" roughness="0.4"/><transform><scale value="0.5"/><translate z="0.8"/></transform></instance>
+        <light type="area"><instance><shape type="rectangle"/><emission type="lambertian" emission="4"/><transform><rotate axis="1,0,0" angle="90"/><translate y="1.9"/></transform></instance></light>)";
+    std::string const folder = std::string(WEFT_SOURCE_DIR) + "/tests/integrator";
+    auto const early = block_estimates(
+        make_scene(contents, "type=\"path\" depth=\"40\" rouletteDepth=\"1\"", folder), 1500, 4, 1);
+    auto const never = block_estimates(
+        make_scene(contents, "type=\"path\" depth=\"40\" rouletteDepth=\"1000\"", folder), 700, 4,
+        2);
+    double const level = sidak(1e-3, int(early.size()));
+    for (size_t i = 0; i < early.size(); ++i)
+        EXPECT_GT(difference_p_value(early[i], never[i]), level)
+            << i << ": " << early[i].mean << " +- " << std::sqrt(early[i].variance) << " and "
+            << never[i].mean << " +- " << std::sqrt(never[i].variance);
+}
+
+TEST(Depth, CountsVertices) {
+    std::string const contents =
+        kCamera + R"(<instance><shape type="sphere"/><bsdf type="diffuse" albedo="0.5"/></instance>
+        <light type="area"><instance><shape type="sphere"/><emission type="lambertian" emission="3,2,1"/><transform><scale value="0.7"/><translate x="1.5" y="1.5" z="-1"/></transform></instance></light>
+        <instance><shape type="rectangle"/><bsdf type="diffuse" albedo="0.5"/><emission type="lambertian" emission="0.25"/><transform><scale value="5"/><rotate axis="0,1,0" angle="180"/><translate z="2"/></transform></instance>)";
+    // 0: nothing. 1: what the camera sees of lights. 2: direct light, as `direct` has it.
+    for (Estimate const& e :
+         block_estimates(make_scene(contents, "type=\"path\" depth=\"0\""), 4, 4, 1))
+        EXPECT_EQ(e.mean, 0);
+    auto const one = make_scene(contents, "type=\"path\" depth=\"1\"");
+    for (Estimate const& e : block_estimates(one, 64, 4, 1)) EXPECT_GT(e.mean, 0.01);
+    auto const behind = make_scene(
+        narrow_camera("0,0,-4") +
+            R"(<instance><shape type="sphere"/><bsdf type="diffuse"/></instance>)" + kWhiteSky,
+        "type=\"path\" depth=\"1\"");
+    for (Estimate const& e : block_estimates(behind, 4, 4, 1))
+        EXPECT_EQ(e.mean, 0) << "a surface is lit from depth 2 on";
+    auto const two = block_estimates(make_scene(contents, "type=\"path\" depth=\"2\""), 2000, 4, 1);
+    auto const direct = block_estimates(make_scene(contents, "type=\"direct\""), 2000, 4, 2);
+    double const level = sidak(1e-3, int(two.size()));
+    for (size_t i = 0; i < two.size(); ++i)
+        EXPECT_GT(difference_p_value(two[i], direct[i]), level)
+            << i << ": " << two[i].mean << " and " << direct[i].mean;
+    // lightwave's names are the same integrators.
+    auto const named = block_estimates(make_scene(contents, "type=\"mis\" depth=\"5\""), 100, 4, 1);
+    auto const path = block_estimates(make_scene(contents, "type=\"path\" depth=\"5\""), 100, 4, 1);
+    for (size_t i = 0; i < named.size(); ++i) EXPECT_EQ(named[i].mean, path[i].mean);
+}
+
+} // namespace
+} // namespace weft::integrator

@@ -1,0 +1,181 @@
+// Light sampling = BSDF sampling = both combined. The three strategies of `path` share almost
+// nothing in how they find light, so what they agree on is likely to be right; for lights that no
+// ray can meet they differ in their seeds alone.
+#include <gtest/gtest.h>
+
+#include "tests/support/scenes.h"
+
+namespace weft::integrator {
+namespace {
+
+using namespace weft::testing;
+
+constexpr double kAlpha = 0.01; // for all tests of this file together
+
+std::string const kCamera = R"(<camera type="perspective" width="8" height="8" fov="45">
+    <transform><lookat origin="0,1.5,-5" target="0,0,0" up="0,1,0"/></transform></camera>)";
+std::string const kFloor =
+    R"(<instance><shape type="rectangle"/><bsdf type="diffuse" albedo="0.7,0.5,0.3"/>
+    <transform><scale value="4"/><rotate axis="1,0,0" angle="-90"/><translate y="-1"/></transform></instance>)";
+std::string const kBall =
+    R"(<instance><shape type="sphere"/><bsdf type="principled" baseColor="0.2,0.5,0.8" roughness="0.5" metallic="0.3"/></instance>)";
+std::string const kRectangleLight = R"(<light type="area"><instance><shape type="rectangle"/>
+    <emission type="lambertian" emission="3,4,5"/>
+    <transform><scale value="1.5"/><rotate axis="1,0,0" angle="90"/><translate y="3"/></transform></instance></light>)";
+
+struct Case {
+    std::string name, contents;
+    int samples = 4000;
+    std::string attributes = "depth=\"6\"";
+};
+
+/// Names of a map with a dark sky, a bright spot and one black half, made in `folder`.
+void write_sky(std::string const& path) {
+    image::Image sky = image::make_image(16, 8, 3);
+    for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 8; ++x)
+            for (int c = 0; c < 3; ++c) sky.at(x, y, c) = 0.2f + 0.1f * float(c);
+    for (int c = 0; c < 3; ++c) sky.at(5, 6, c) = 40;
+    for (int c = 0; c < 3; ++c) sky.at(11, 5, c) = 20 - 5 * float(c);
+    image::write_exr(path, sky);
+}
+
+std::vector<Case> cases(TemporaryFolder const& folder) {
+    write_sky(folder / "sky.exr");
+    write_ply(folder / "ball.ply", icosphere(1, true));
+    scene::Mesh inverted =
+        icosphere(1, true); // wound clockwise; only its normals say where outside is
+    for (auto& t : inverted.triangles) std::swap(t.v[1], t.v[2]);
+    write_ply(folder / "inverted.ply", inverted);
+
+    std::string const dim =
+        R"(<light type="envmap"><texture type="constant" value="0.3,0.2,0.1"/></light>)";
+    std::string const sky = R"(<light type="envmap"><texture type="image" filename="sky.exr"/>
+        <transform><rotate axis="0,1,0" angle="70"/><rotate axis="1,0,0" angle="20"/></transform></light>)";
+    auto mesh_light = [](std::string const& file, std::string const& transform,
+                         std::string const& more = "") {
+        return R"(<light type="area"><instance><shape type="mesh" filename=")" + file +
+               R"("/><emission type="lambertian" emission="6,5,3"/>)" + more + "<transform>" +
+               transform + "</transform></instance></light>";
+    };
+    auto sphere_light = [](std::string const& transform, std::string const& more = "") {
+        return R"(<light type="area"><instance><shape type="sphere"/><emission type="lambertian" emission="6,5,3"/>)" +
+               more + "<transform>" + transform + "</transform></instance></light>";
+    };
+    auto ball = [](std::string const& bsdf, std::string const& more = "") {
+        return "<instance><shape type=\"sphere\"/>" + bsdf + more + "</instance>";
+    };
+    std::string const up = "<translate x=\"1\" y=\"2.2\" z=\"-1\"/>";
+    std::string const shear =
+        "<matrix value=\"0.8,0.5,0,0, 0,0.7,0.3,0, 0.2,0,-0.9,0, 0,0,0,1\"/>"; // mirrors, too
+    std::string const rough_glass = R"(<bsdf type="roughdielectric" roughness="0.5"/>)";
+    std::string const fog =
+        R"(<bsdf type="volume" scatter="0.9,0.6,0.3" absorption="0.05,0.1,0.2" phase="0.4"/>)";
+
+    return {
+        {"point", kFloor + kBall + R"(<light type="point" position="1,3,-2" power="60,50,40"/>)"},
+        {"directional",
+         kFloor + kBall + R"(<light type="directional" direction="1,2,-1" intensity="2,3,4"/>)"},
+        {"spot",
+         kFloor + kBall +
+             R"(<light type="spot" position="1,3,-1" direction="-0.3,-1,0.3" angle="40" falloff="30" intensity="9"/>)"},
+        {"sphere", kFloor + kBall + sphere_light("<scale value=\"0.8\"/>" + up)},
+        {"rectangle", kFloor + kBall + kRectangleLight},
+        {"mesh", kFloor + kBall + mesh_light("ball.ply", up)},
+        {"two area lights and a dim sky",
+         kFloor + kBall + dim + kRectangleLight +
+             sphere_light("<scale value=\"0.6\"/><translate x=\"-2\" y=\"0.5\" z=\"-1\"/>")},
+        {"constant sky", kFloor + kBall + dim},
+        {"sky with bright spots", kFloor + kBall + sky, 8000},
+        {"sky over rough metal",
+         kFloor +
+             ball(R"(<bsdf type="roughconductor" roughness="0.4" reflectance="0.9,0.7,0.4"/>)") +
+             sky,
+         8000},
+        {"rough metal under a rectangle",
+         kFloor + ball(R"(<bsdf type="roughconductor" roughness="0.6" distribution="beckmann"/>)") +
+             kRectangleLight},
+        {"rough glass", kFloor + ball(rough_glass) + kRectangleLight + dim},
+        {"sheared and mirrored sphere light", kFloor + kBall + sphere_light(shear + up)},
+        {"sheared and mirrored rectangle light",
+         kFloor + kBall +
+             R"(<light type="area"><instance><shape type="rectangle"/><emission type="lambertian" emission="5"/><transform>
+               <matrix value="1.5,0.6,0,0, 0,1.2,0,0, 0,0,-1,0, 0,0,0,1"/><rotate axis="1,0,0" angle="-90"/><translate y="2.5"/></transform></instance></light>)"},
+        {"sheared and mirrored mesh light", kFloor + kBall + mesh_light("ball.ply", shear + up)},
+        {"mesh light wound inwards", kFloor + kBall + mesh_light("inverted.ply", up)},
+        {"instanced mesh lights",
+         kFloor + kBall + mesh_light("ball.ply", "<scale value=\"0.6\"/>" + up) +
+             mesh_light("ball.ply", shear + "<translate x=\"-2\" y=\"1.5\" z=\"-1\"/>")},
+        {"light with a texture and holes",
+         kFloor + kBall +
+             R"(<light type="area"><instance><shape type="rectangle"/>
+               <emission type="lambertian"><texture name="emission" type="checkerboard" color0="1,0.2,0.2" color1="8" scale="3,2"/></emission>
+               <texture name="alpha" type="checkerboard" color0="0.3" color1="0.8" scale="2,5"/>
+               <transform><scale value="1.5"/><rotate axis="1,0,0" angle="90"/><translate y="3"/></transform></instance></light>)"},
+        {"half transparent sphere light",
+         kFloor + kBall +
+             sphere_light("<scale value=\"0.9\"/>" + up, "<float name=\"alpha\" value=\"0.5\"/>")},
+        {"half transparent balls",
+         kFloor + kRectangleLight +
+             ball(R"(<bsdf type="diffuse" albedo="0.8"/>)",
+                  "<float name=\"alpha\" value=\"0.5\"/>") +
+             R"(<instance alpha="0.3"><shape type="mesh" filename="ball.ply"/><bsdf type="diffuse"/><transform><translate x="-1.5"/></transform></instance>)"},
+        {"half transparent glass in fog",
+         kFloor + R"(<instance alpha="0.5"><shape type="sphere"/>)" + rough_glass +
+             "<transform><scale value=\"1.8\"/><translate y=\"1\"/></transform></instance>" +
+             kRectangleLight +
+             R"(<medium type="homogeneous" absorption="0.6,0.3,0" scatter="0.1"/>)"},
+        {"emission on what is no surface",
+         kFloor + kBall + dim + sphere_light("<scale value=\"0.8\"/>" + up, fog)},
+        {"emitter filled with a medium",
+         kFloor + kBall +
+             sphere_light("<scale value=\"0.8\"/>" + up,
+                          R"(<medium type="homogeneous" absorption="1"/>)")},
+        {"fog in a ball", kFloor + ball(fog) + kRectangleLight + dim},
+        {"light inside of a fog ball",
+         kFloor + R"(<instance><shape type="sphere"/>)" + fog +
+             R"(<transform><scale value="1.4"/></transform></instance>)" +
+             sphere_light("<scale value=\"0.5\"/>")},
+        {"fog everywhere",
+         kFloor + kBall + R"(<light type="point" position="1,3,-2" power="60"/>)" +
+             kRectangleLight +
+             R"(<medium type="homogeneous" absorption="0.02" scatter="0.1,0.15,0.2" phase="-0.3"/>)"},
+        {"light in rough glass that absorbs",
+         kFloor + sphere_light("<scale value=\"0.5\"/>") + R"(<instance><shape type="sphere"/>)" +
+             rough_glass + R"(<medium type="homogeneous" absorption="0.3,0.8,1.5"/>
+               <transform><scale value="1.2"/></transform></instance>)"},
+        {"nested rough dielectrics",
+         kFloor + kRectangleLight + dim +
+             R"(<instance priority="2"><shape type="sphere"/><bsdf type="roughdielectric" roughness="0.4" ior="1.5"/></instance>
+               <instance priority="1"><shape type="sphere"/><bsdf type="roughdielectric" roughness="0.3" ior="1.33"/>
+               <medium type="homogeneous" absorption="0.2,0.5,1"/><transform><translate x="0.7"/></transform></instance>)"},
+    };
+}
+
+/// (scene, test) pairs: two comparisons, three colours, four blocks.
+constexpr int kTestsPerCase = 2 * 3 * 4;
+
+TEST(Strategies, Agree) {
+    TemporaryFolder const folder;
+    auto const all = cases(folder);
+    double const level = sidak(kAlpha, int(all.size()) * kTestsPerCase);
+    for (Case const& c : all) {
+        std::vector<Estimate> of[3];
+        char const* const names[]{"mis", "nee", "bsdf"};
+        for (int s = 0; s < 3; ++s) {
+            std::string const integrator =
+                "type=\"path\" strategy=\"" + std::string(names[s]) + "\" " + c.attributes;
+            of[s] = block_estimates(make_scene(kCamera + c.contents, integrator, folder.path()),
+                                    c.samples, 4, uint32_t(s));
+        }
+        for (size_t i = 0; i < of[0].size(); ++i)
+            for (int s = 1; s < 3; ++s)
+                EXPECT_GT(difference_p_value(of[0][i], of[s][i]), level)
+                    << c.name << ", block " << i / 3 << ", channel " << i % 3 << ": mis "
+                    << of[0][i].mean << " +- " << std::sqrt(of[0][i].variance) << ", " << names[s]
+                    << ' ' << of[s][i].mean << " +- " << std::sqrt(of[s][i].variance);
+    }
+}
+
+} // namespace
+} // namespace weft::integrator

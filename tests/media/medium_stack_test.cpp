@@ -1,0 +1,94 @@
+// Nested dielectrics, told as walks through glasses.
+#include <gtest/gtest.h>
+
+#include "media/medium_stack.h"
+
+namespace weft::media {
+namespace {
+
+Interior interior(uint32_t object, int32_t priority, float ior = 1.5f) {
+    return {object, priority, ior, int32_t(object)};
+}
+
+TEST(MediumStack, IsEmptySpaceAtFirst) {
+    MediumStack const stack;
+    EXPECT_EQ(stack.current().ior, 1);
+    EXPECT_EQ(stack.current().medium, -1);
+    EXPECT_TRUE(stack.is_visible(3, -1000));
+}
+
+TEST(MediumStack, GivesBackWhatSurrounds) {
+    Interior fog;
+    fog.medium = 7;
+    MediumStack stack(fog);
+    stack.enter(interior(1, 0));
+    EXPECT_EQ(stack.current().medium, 1);
+    EXPECT_EQ(stack.current_without(1).medium, 7);
+    stack.leave(1);
+    EXPECT_EQ(stack.current().medium, 7);
+}
+
+TEST(MediumStack, NestedObjectsAreSeenBothWays) {
+    MediumStack stack;
+    EXPECT_TRUE(stack.is_visible(1, 0));
+    stack.enter(interior(1, 0, 1.5f));
+    EXPECT_TRUE(stack.is_visible(2, 0)); // a diamond inside of the glass, of equal priority
+    stack.enter(interior(2, 0, 2.4f));
+    EXPECT_EQ(stack.current().object, 2u);
+    EXPECT_EQ(stack.current_without(2).ior, 1.5f);
+    EXPECT_TRUE(stack.is_visible(2, 0));
+    stack.leave(2);
+    EXPECT_EQ(stack.current().object, 1u);
+    EXPECT_TRUE(stack.is_visible(1, 0));
+}
+
+TEST(MediumStack, LiquidThatReachesIntoTheGlass) {
+    // air | glass [ liquid begins inside of the glass ] | liquid
+    constexpr uint32_t glass = 1, liquid = 2;
+    MediumStack stack;
+    stack.enter(interior(glass, 10, 1.5f));
+    EXPECT_FALSE(stack.is_visible(liquid, 0)); // glass goes on: nothing to see
+    stack.enter(interior(liquid, 0, 1.33f));
+    EXPECT_EQ(stack.current().object, glass);
+    EXPECT_TRUE(stack.is_visible(glass, 10));
+    EXPECT_EQ(stack.current_without(glass).ior, 1.33f); // glass against liquid
+    stack.leave(glass);
+    EXPECT_EQ(stack.current().object, liquid);
+    // And out on the other side.
+    EXPECT_TRUE(stack.is_visible(glass, 10));
+    stack.enter(interior(glass, 10, 1.5f));
+    EXPECT_FALSE(stack.is_visible(liquid, 0));
+    stack.leave(liquid);
+    EXPECT_EQ(stack.current_without(glass).ior, 1);
+    stack.leave(glass);
+    EXPECT_EQ(stack.current().object, UINT32_MAX);
+}
+
+TEST(MediumStack, OfEqualPrioritiesTheLastEnteredIsThere) {
+    MediumStack stack;
+    stack.enter(interior(1, 0));
+    stack.enter(interior(2, 0));
+    EXPECT_EQ(stack.current().object, 2u);
+    // What is left now is not what is there, so its boundary does not show.
+    EXPECT_FALSE(stack.is_visible(1, 0));
+    stack.leave(1);
+    EXPECT_EQ(stack.current().object, 2u);
+    EXPECT_TRUE(stack.is_visible(2, 0));
+}
+
+TEST(MediumStack, SurvivesWhatIsNotClosed) {
+    MediumStack stack;
+    stack.leave(5); // never entered
+    EXPECT_EQ(stack.current().object, UINT32_MAX);
+    stack.enter(interior(1, 0));
+    stack.enter(interior(1, 0)); // twice, as a shape with a hole would have it
+    stack.leave(1);
+    EXPECT_FALSE(stack.contains(1));
+    for (uint32_t i = 0; i < 20; ++i) stack.enter(interior(i, int32_t(i)));
+    EXPECT_EQ(stack.current().object, 6u); // 7 objects fit
+    for (uint32_t i = 0; i < 20; ++i) stack.leave(i);
+    EXPECT_EQ(stack.current().object, UINT32_MAX);
+}
+
+} // namespace
+} // namespace weft::media
