@@ -35,7 +35,10 @@ bool is_definition_tag(std::string_view tag) { return contains(definition_tags()
 
 std::string element_title(XmlElement const& element) {
     std::string title = "<" + element.tag;
-    if (XmlAttribute const* type = element.find("type")) title += " type=\"" + type->value + "\"";
+    if (XmlAttribute const* type = element.find("type")) {
+        std::string const text = in_quotes(type->value);
+        title += " type=\"" + text.substr(1, text.size() - 2) + "\"";
+    }
     return title + ">";
 }
 

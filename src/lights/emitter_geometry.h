@@ -38,8 +38,7 @@ struct EmitterSample {
 /// The front is the side that the transformed normal A^-T z points to, also where A mirrors.
 /// Rectangles are sampled uniformly in solid angle (Urena, Fajardo and King 2013, "An
 /// area-preserving parametrization for spherical rectangles"; rectangle_emitter.cpp has the form
-/// used). Parallelograms, and rectangles whose solid angle is small enough to be flat (or below
-/// 1e-6 sr), are sampled by area.
+/// used). Parallelograms, and rectangles of less than 1e-6 sr, are sampled by area.
 class RectangleEmitter {
   public:
     explicit RectangleEmitter(Affine const& to_world);
@@ -57,7 +56,6 @@ class RectangleEmitter {
     View view(Vec3d const& to_corner) const;
     EmitterSample at(Vec3 const& ref, Vec2 uv) const;
     float area_pdf(Vec3 const& ref, Vec3 const& p) const;
-    bool looks_flat(Vec3 const& ref) const;
 
     // In double, and rotated into the rectangle's frame: the solid angle is a difference.
     Vec3d corner_, edge_x_, edge_y_; ///< the point of uv (0, 0) and the full edges
@@ -65,8 +63,6 @@ class RectangleEmitter {
     double length_x_, length_y_;
     double per_x_, per_y_; ///< 1 / length
     float area_;
-    Vec3 centre_{0, 0, 0}, front_{0, 0, 1}; ///< as floats
-    float diagonal_squared_;
     bool is_rectangle_;
 };
 

@@ -85,9 +85,6 @@ RectangleEmitter::RectangleEmitter(Affine const& to_world) {
     area_ = float(twice);
     // A^-T z = cross(x, y) / det. Where A flattens z the sign of +z is taken.
     normal_ = c * ((m.determinant() < 0 ? -1 : 1) / twice);
-    centre_ = centre();
-    front_ = normal();
-    diagonal_squared_ = float(dot(edge_x_, edge_x_) + dot(edge_y_, edge_y_));
     // What rounding leaves of a right angle; a shear of this size moves the density as little.
     is_rectangle_ = std::abs(dot(axis_x_, axis_y_)) < 1e-5;
 }
@@ -133,16 +130,8 @@ float RectangleEmitter::area_pdf(Vec3 const& ref, Vec3 const& p) const {
     return cosine_by > 0 ? d * d * (d / cosine_by) : 0;
 }
 
-/// Whether the density of area sampling varies little as seen from `ref`: from afar, and not from
-/// near the plane. It is many times cheaper then, and as good.
-bool RectangleEmitter::looks_flat(Vec3 const& ref) const {
-    Vec3 const d = centre_ - ref;
-    float const d2 = length_squared(d), h = dot(d, front_);
-    return diagonal_squared_ < 0.3f * d2 && h * h > 0.06f * d2;
-}
-
 EmitterSample RectangleEmitter::sample(Vec3 const& ref, Vec2 u) const {
-    if (is_rectangle_ && !looks_flat(ref)) {
+    if (is_rectangle_) {
         View const v = view(corner_ - Vec3d(ref));
         if (v.solid_angle >= kMinSolidAngle) {
             double const x = v.abscissa(u.x), y = v.ordinate(x, u.y);
@@ -157,7 +146,7 @@ EmitterSample RectangleEmitter::sample(Vec3 const& ref, Vec2 u) const {
 }
 
 float RectangleEmitter::pdf(Vec3 const& ref, Vec3 const& p, Vec3 const&, uint32_t) const {
-    if (is_rectangle_ && !looks_flat(ref)) {
+    if (is_rectangle_) {
         float const omega = view(corner_ - Vec3d(ref)).solid_angle;
         if (omega >= kMinSolidAngle) return 1 / omega;
     }

@@ -159,6 +159,12 @@ TEST(SceneFile, LongTextsAreCutInMessages) {
     EXPECT_NE(message.find("xxx...'"), std::string::npos);
 }
 
+TEST(SceneFile, MessagesAreOneLine) {
+    EXPECT_EQ(error_of("<bsdf id='m' type='a&#10;b'/><scene>" + kCamera +
+                       "<instance><ref name='shape' id='m'/></instance></scene>"),
+              "s.xml:1:96: expected a <shape>, found <bsdf type=\"a b\">");
+}
+
 TEST(SceneFile, TransformsApplyInOrder) {
     // Scaled, then moved: the point (1, 0, 0) goes to 2 + 5; the other way round to 2 (1 + 5).
     expect_near(transform("<scale value='2'/><translate x='5'/>").point({1, 0, 0}), {7, 0, 0});
