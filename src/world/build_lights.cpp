@@ -10,8 +10,8 @@ Affine rotation_of(Affined const& m) {
     return Affine(Affined(normalize(m.x), normalize(m.y), normalize(m.z), Vec3d(0)));
 }
 
-/// For each cell of a lat-long grid the largest luminance that the bilinear filter can make
-/// there, so that no light goes unsampled.
+/// For each cell of a lat-long grid the mean luminance over the footprint of the bilinear filter:
+/// positive wherever a lookup in the cell can be, so that no light goes unsampled.
 std::vector<float> environment_cells(shading::Textures const& textures, scene::Input<Color> const& input, Vec2i size) {
     std::vector<float> values(size_t(size.x) * size_t(size.y)), cells(values.size());
     auto at = [&](int x, int y) -> float& { return values[size_t(y) * size_t(size.x) + size_t(x)]; };

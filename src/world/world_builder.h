@@ -25,7 +25,6 @@ class WorldBuilder {
         scene::MediumId medium;
         scene::Input<float> alpha{1};
         int priority = 0;
-        int light = -1;
     };
 
     void collect_instances();
@@ -55,7 +54,6 @@ class WorldBuilder {
     RTCScene sphere_scene_ = nullptr;
     std::vector<std::pair<uint32_t, float>> area_objects_;       ///< object, user weight
     std::shared_ptr<scene::Mesh const> rectangle_;
-    std::set<int32_t> area_instances_;
 };
 
 /// Radiance of a texture averaged over its square, for judging a light's power.
