@@ -11,6 +11,7 @@ Color pixel(image::Image const& image, int x, int y) {
 
 /// The pixel index that the border rule makes of any index.
 int border_index(int i, int size, bool clamp) {
+    if (unsigned(i) < unsigned(size)) [[likely]] return i; // a division costs more than the lookup
     if (clamp) return std::clamp(i, 0, size - 1);
     int const r = i % size;
     return r < 0 ? r + size : r;

@@ -1,0 +1,123 @@
+#!/bin/bash
+# command_line_test.sh WEFT: exit codes, options and outputs of the program.
+set -uo pipefail
+weft=$1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+failures=0
+
+# expect CODE COMMAND...: runs it, keeping its output in `out` and `err`.
+expect() {
+    local code=$1
+    shift
+    "$@" >out 2>err
+    local got=$?
+    [ $got = "$code" ] || fail "expected exit code $code, found $got: $*"
+}
+fail() {
+    echo "FAIL: $1"
+    cat err
+    failures=$((failures + 1))
+}
+has() { grep -qF -- "$1" "$2" || fail "expected '$1' in $2"; }
+
+cat >s.xml <<'X'
+<integrator type="path" depth="4">
+  <image id="picture"/>
+  <sampler type="sobol" count="4"/>
+  <scene>
+    <camera type="perspective" id="cam" width="40" height="30" fov="40">
+      <transform><lookat origin="0,0,-5" target="0,0,0" up="0,1,0"/></transform>
+    </camera>
+    <light type="envmap"><texture type="constant" value="0.5"/></light>
+    <light type="point" position="2,-3,-4" power="100"/>
+    <instance><shape type="sphere"/><bsdf type="diffuse" albedo="0.5"/></instance>
+  </scene>
+</integrator>
+X
+
+# Outputs: beside the scene, where -o says, several, in a folder.
+expect 0 "$weft" render s.xml
+[ -s picture.exr ] || fail "picture.exr is not beside the scene"
+mkdir folder
+expect 0 "$weft" render s.xml -o a.exr -o a.png -o folder --progress none
+[ -s a.exr ] && [ -s a.png ] && [ -s folder/picture.exr ] || fail "an output is missing"
+
+# Same bits whatever the threads and tiles; a crop is a part of the whole.
+expect 0 "$weft" render s.xml -o b.exr --threads 1 --tile 7
+expect 0 "$weft" compare a.exr b.exr --mae 0
+expect 0 "$weft" render s.xml -o c.exr --seed 1
+expect 1 "$weft" compare a.exr c.exr --mae 0
+expect 0 "$weft" compare a.exr c.exr --diff d.png
+[ -s d.png ] || fail "no difference picture"
+has relMSE out
+expect 0 "$weft" render s.xml -o crop.exr --crop 10,5,30,25
+expect 2 "$weft" compare a.exr crop.exr
+expect 2 "$weft" render s.xml -o crop.exr --crop 10,5,90,25
+expect 0 "$weft" render s.xml -o small.exr --size 50%
+expect 2 "$weft" render s.xml -o small.exr --size 0x3
+
+# --set, by tag and by id.
+expect 0 "$weft" render s.xml -o e.exr --set camera.fov=20 --set cam.width=41
+expect 2 "$weft" render s.xml -o f.exr --set camera.fow=20
+has "did you mean 'fov'?" err
+expect 2 "$weft" render s.xml -o f.exr --set kamera.fov=20
+[ ! -e f.exr ] || fail "a failed render left a picture"
+
+# Progress as JSON, one object a line.
+expect 0 "$weft" render s.xml -o g.exr --progress json
+python3 -c 'import json
+lines = [json.loads(l) for l in open("err") if l.startswith("{")]
+assert lines and lines[-1]["percent"] == 100, lines' || fail "progress is not JSON"
+
+# Mistakes.
+expect 2 "$weft" render missing.xml
+expect 2 "$weft" render s.xml -o nowhere/a.exr
+expect 2 "$weft" render s.xml -o a.tga
+expect 2 "$weft" render s.xml --sppp 3
+expect 2 "$weft"
+sed 's/diffuse/difuse/' s.xml >bad.xml
+cp a.exr old.exr
+expect 2 "$weft" render bad.xml -o old.exr
+has "did you mean 'diffuse'?" err
+cmp -s a.exr old.exr || fail "the old picture was changed"
+
+# Help and schema.
+expect 0 "$weft" --help
+expect 0 "$weft" render --help
+expect 0 "$weft" help
+expect 0 "$weft" help thinlens
+has lensRadius out
+expect 2 "$weft" help thinlense
+has "did you mean 'thinlens'?" err
+expect 0 "$weft" schema --json
+python3 -c 'import json; assert len(json.load(open("out"))["types"]) > 30' || fail "the schema is not JSON"
+expect 0 "$weft" info s.xml
+has "objects" out
+
+# Tests with a reference.
+sed -e 's/<integrator /<test type="image" id="t" mae="1e-6" me="1e-6"><integrator /' -e 's/<.integrator>/&<\/test>/' s.xml >t.xml
+cp a.exr t_ref.exr
+expect 0 "$weft" test t.xml
+has "1 passed, 0 failed" out
+cp c.exr t_ref.exr
+expect 1 "$weft" test t.xml
+has "0 passed, 1 failed" out
+rm t_ref.exr
+expect 2 "$weft" test t.xml
+
+# Ctrl-C: a clean stop that keeps what is done.
+sed -e 's/count="4"/count="1000000"/' s.xml >long.xml
+"$weft" render long.xml -o long.exr >out 2>err &
+pid=$!
+sleep 2
+kill -INT $pid
+wait $pid
+code=$?
+[ $code = 130 ] || fail "expected exit code 130 after an interrupt, found $code"
+has "what is done is written" err
+[ -s long.exr ] || fail "an interrupted render wrote nothing"
+
+[ $failures = 0 ] && echo "the command line works"
+exit $((failures > 0))
