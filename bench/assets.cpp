@@ -43,18 +43,21 @@ Vec3 knot(Vec2 uv) {
     float const t = 2 * kPi * uv.x, a = 2 * kPi * uv.y;
     Vec3 const c = centre(t), along = normalize(centre(t + 1e-3f) - c);
     Vec3 const side = normalize(cross(along, c)), up = cross(side, along);
-    float const radius = 0.2f + 0.03f * std::sin(5 * a + 40 * t) + 0.012f * std::sin(90 * t) * std::sin(9 * a);
+    float const radius =
+        0.2f + 0.03f * std::sin(5 * a + 40 * t) + 0.012f * std::sin(90 * t) * std::sin(9 * a);
     return c + (side * std::cos(a) + up * std::sin(a)) * radius;
 }
 
 /// A weathered ball of radius about 1.
 Vec3 boulder(Vec2 uv) {
     float const phi = 2 * kPi * uv.x, theta = kPi * (1 - uv.y);
-    Vec3 const d(std::sin(theta) * std::cos(phi), std::cos(theta), -std::sin(theta) * std::sin(phi));
+    Vec3 const d(std::sin(theta) * std::cos(phi), std::cos(theta),
+                 -std::sin(theta) * std::sin(phi));
     Vec3 q = d * 2.f;
     float bump = 0, amplitude = 0.12f;
     for (int octave = 0; octave < 6; ++octave, amplitude *= 0.5f) {
-        bump += amplitude * std::sin(q.x + 1.3f * std::sin(q.y)) * std::sin(q.y + 1.7f * std::sin(q.z)) * std::sin(q.z + float(octave));
+        bump += amplitude * std::sin(q.x + 1.3f * std::sin(q.y)) *
+                std::sin(q.y + 1.7f * std::sin(q.z)) * std::sin(q.z + float(octave));
         q = Vec3(q.y + 0.4f * q.z, q.z - 0.4f * q.x, q.x + 0.4f * q.y) * 1.9f;
     }
     return d * (1 + bump);
@@ -63,8 +66,10 @@ Vec3 boulder(Vec2 uv) {
 /// A fluted, twisted vase on a foot, from y = -1 to 1.
 Vec3 vase(Vec2 uv) {
     float const h = uv.y, phi = 2 * kPi * uv.x, turn = phi + 2.5f * h;
-    float const profile = 0.42f + 0.2f * std::sin(2 * kPi * (0.9f * h + 0.55f)) + 0.08f * std::cos(14 * h);
-    float const flutes = 1 + 0.06f * std::sin(16 * turn) + 0.012f * std::sin(80 * turn) * std::sin(120 * h);
+    float const profile =
+        0.42f + 0.2f * std::sin(2 * kPi * (0.9f * h + 0.55f)) + 0.08f * std::cos(14 * h);
+    float const flutes =
+        1 + 0.06f * std::sin(16 * turn) + 0.012f * std::sin(80 * turn) * std::sin(120 * h);
     float const closing = std::sqrt(std::max(0.f, 1 - std::pow(std::abs(2 * h - 1), 24.f)));
     float const r = profile * flutes * closing;
     return {r * std::cos(phi), 2 * h - 1, -r * std::sin(phi)};
@@ -74,17 +79,21 @@ Vec3 vase(Vec2 uv) {
 Color floor_color(Vec2 uv) {
     Vec2 const slab = uv * 8.f;
     float const x = slab.x - std::floor(slab.x), y = slab.y - std::floor(slab.y);
-    uint32_t const id = hash_combine(uint32_t(int(std::floor(slab.x))), uint32_t(int(std::floor(slab.y))));
+    uint32_t const id =
+        hash_combine(uint32_t(int(std::floor(slab.x))), uint32_t(int(std::floor(slab.y))));
     float const joint = std::min(std::min(x, 1 - x), std::min(y, 1 - y));
-    float const grain = fractal(uv, 16, 7), wear = std::clamp((joint - 0.015f - 0.02f * grain) * 60, 0.f, 1.f);
-    Color const stone = lerp(Color(0.46f, 0.36f, 0.27f), Color(0.62f, 0.58f, 0.5f), to_unit_float(id));
+    float const grain = fractal(uv, 16, 7),
+                wear = std::clamp((joint - 0.015f - 0.02f * grain) * 60, 0.f, 1.f);
+    Color const stone =
+        lerp(Color(0.46f, 0.36f, 0.27f), Color(0.62f, 0.58f, 0.5f), to_unit_float(id));
     return lerp(Color(0.08f), stone * (0.55f + 0.7f * grain), wear);
 }
 
 /// Glazed bands of two colours.
 Color glaze_color(Vec2 uv) {
     float const band = std::sin(2 * kPi * (6 * uv.y + 0.8f * fractal(uv, 6, 21)));
-    Color const c = lerp(Color(0.05f, 0.16f, 0.32f), Color(0.75f, 0.45f, 0.12f), smooth(std::clamp(2 * band + 0.5f, 0.f, 1.f)));
+    Color const c = lerp(Color(0.05f, 0.16f, 0.32f), Color(0.75f, 0.45f, 0.12f),
+                         smooth(std::clamp(2 * band + 0.5f, 0.f, 1.f)));
     return c * (0.7f + 0.5f * fractal(uv, 32, 22));
 }
 
@@ -93,21 +102,25 @@ Color roughness(Vec2 uv) { return Color(std::clamp(0.1f + 0.7f * fractal(uv, 12,
 /// A clear sky over dark ground with a sun of 2 degrees, the top row at the zenith.
 Color sky(Vec2 uv) {
     float const elevation = kPi * (0.5f - uv.y), azimuth = 2 * kPi * uv.x;
-    auto towards = [](float e, float a) { return Vec3(std::cos(e) * std::cos(a), std::sin(e), std::cos(e) * std::sin(a)); };
+    auto towards = [](float e, float a) {
+        return Vec3(std::cos(e) * std::cos(a), std::sin(e), std::cos(e) * std::sin(a));
+    };
     float const to_sun = dot(towards(elevation, azimuth), towards(radians(38), radians(250)));
     if (to_sun > std::cos(radians(1))) return Color(5000, 4500, 3700);
     if (elevation < 0) return Color(0.12f, 0.1f, 0.08f);
     float const haze = std::exp(-5 * std::sin(elevation));
     Color const blue = lerp(Color(0.12f, 0.28f, 0.75f), Color(0.75f, 0.82f, 0.9f), haze);
     float const cloud = smooth(std::clamp(3 * fractal(uv, 5, 61) - 1.3f, 0.f, 1.f)) * (1 - haze);
-    return lerp(blue, Color(0.9f), cloud) + Color(1, 0.85f, 0.6f) * (2 * std::pow(std::max(to_sun, 0.f), 60.f));
+    return lerp(blue, Color(0.9f), cloud) +
+           Color(1, 0.85f, 0.6f) * (2 * std::pow(std::max(to_sun, 0.f), 60.f));
 }
 
 image::Image paint(int width, int height, Color (*color)(Vec2)) {
     image::Image im = image::make_image(width, height, 3);
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
-            Color const c = color({(float(x) + 0.5f) / float(width), (float(y) + 0.5f) / float(height)});
+            Color const c =
+                color({(float(x) + 0.5f) / float(width), (float(y) + 0.5f) / float(height)});
             for (int channel = 0; channel < 3; ++channel) im.at(x, y, channel) = c[channel];
         }
     return im;
@@ -125,14 +138,17 @@ void write_cornell_box(std::string const& folder) {
     };
     auto add_block = [&](std::array<Vec2, 4> const& base, float height) {
         auto corner = [&](size_t i, float y) { return Vec3(base[i % 4].x, y, base[i % 4].y); };
-        white.push_back({corner(0, height), corner(1, height), corner(2, height), corner(3, height)});
+        white.push_back(
+            {corner(0, height), corner(1, height), corner(2, height), corner(3, height)});
         for (size_t i = 0; i < 4; ++i)
-            white.push_back({corner(i, 0), corner(i + 1, 0), corner(i + 1, height), corner(i, height)});
+            white.push_back(
+                {corner(i, 0), corner(i + 1, 0), corner(i + 1, height), corner(i, height)});
     };
     add_block({{{130, 65}, {82, 225}, {240, 272}, {290, 114}}}, 165);
     add_block({{{423, 247}, {265, 296}, {314, 456}, {472, 406}}}, 330);
     write_quads(folder + "/cornell_white.ply", white);
-    write_quads(folder + "/cornell_green.ply", {{{{0, 0, 559.2f}, {0, 0, 0}, {0, 548.8f, 0}, {0, 548.8f, 559.2f}}}});
+    write_quads(folder + "/cornell_green.ply",
+                {{{{0, 0, 559.2f}, {0, 0, 0}, {0, 548.8f, 0}, {0, 548.8f, 559.2f}}}});
     write_quads(folder + "/cornell_red.ply",
                 {{{{552.8f, 0, 0}, {549.6f, 0, 559.2f}, {556, 548.8f, 559.2f}, {556, 548.8f, 0}}}});
 }

@@ -21,14 +21,17 @@ double read_file(std::string const& path) {
 }
 
 /// `positions` has one vertex more than the mesh, which the kernel's loads may touch.
-double build_kernel(std::vector<Vec3> const& positions, std::vector<scene::Mesh::Triangle> const& triangles) {
+double build_kernel(std::vector<Vec3> const& positions,
+                    std::vector<scene::Mesh::Triangle> const& triangles) {
     RTCDevice const device = rtcNewDevice("");
     RTCScene const scene = rtcNewScene(device);
     Stopwatch const watch;
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
     RTCGeometry const geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, positions.data(), 0, sizeof(Vec3), positions.size() - 1);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangles.data(), 0, sizeof triangles[0], triangles.size());
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                               positions.data(), 0, sizeof(Vec3), positions.size() - 1);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                               triangles.data(), 0, sizeof triangles[0], triangles.size());
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene, geometry);
     rtcReleaseGeometry(geometry);
@@ -41,7 +44,8 @@ double build_kernel(std::vector<Vec3> const& positions, std::vector<scene::Mesh:
 
 } // namespace
 
-LoadingFigures measure_loading(std::string const& scene_file, std::string const& mesh_file, int rounds) {
+LoadingFigures measure_loading(std::string const& scene_file, std::string const& mesh_file,
+                               int rounds) {
     scene::Mesh const mesh = io::read_ply(mesh_file);
     std::vector<Vec3> positions = mesh.positions;
     positions.push_back(Vec3(0));

@@ -15,7 +15,8 @@ namespace weft::bench {
 
 namespace {
 
-std::string const kScenes = WEFT_SOURCE_DIR "/bench/scenes/", kAssets = WEFT_SOURCE_DIR "/build/bench";
+std::string const kScenes = WEFT_SOURCE_DIR "/bench/scenes/",
+                  kAssets = WEFT_SOURCE_DIR "/build/bench";
 
 struct RenderBench {
     std::string name;
@@ -26,8 +27,10 @@ struct RenderBench {
 /// Seconds x variance is what a renderer needs for a picture of given noise. The Cornell box is
 /// held to half the best product measured with other renderers on a machine of two such
 /// processors: 5.5 s x 1.09e-3 (Mitsuba 3, 16-wide LLVM mode).
-std::vector<RenderBench> const kRenderBenches{
-    {"diffuse_area", 0.55, 0}, {"glass_textures_env", 0.45, 0}, {"instances", 0, 0}, {"cornell", 0, 3.0e-3}};
+std::vector<RenderBench> const kRenderBenches{{"diffuse_area", 0.55, 0},
+                                              {"glass_textures_env", 0.45, 0},
+                                              {"instances", 0, 0},
+                                              {"cornell", 0, 3.0e-3}};
 constexpr char const* kLoadingBench = "load_1m";
 constexpr double kLoadingTarget = 2;
 
@@ -65,36 +68,47 @@ nlohmann::ordered_json to_json(LoadingFigures const& f) {
 char const* verdict(bool met) { return met ? "met" : "MISSED"; }
 
 void print_row(RenderBench const& bench, RenderFigures const& f) {
-    fmt::print("{:<20}{:>10}{:>9.2f}{:>11.2f}{:>9.2f}{:>9.2f}{:>9.2f}{:>12.2e}{:>12.2e}", bench.name, f.triangles, f.seconds,
-               f.pixel_samples_per_second * 1e-6, f.rays_per_second * 1e-6, f.share, f.cpu_share, f.variance, f.seconds * f.variance);
-    if (bench.share_target > 0) fmt::print("  share >= {}: {}", bench.share_target, verdict(f.share >= bench.share_target));
-    if (bench.work_target > 0) fmt::print("  s x variance <= {:.1e}: {}", bench.work_target, verdict(f.seconds * f.variance <= bench.work_target));
+    fmt::print("{:<20}{:>10}{:>9.2f}{:>11.2f}{:>9.2f}{:>9.2f}{:>9.2f}{:>12.2e}{:>12.2e}",
+               bench.name, f.triangles, f.seconds, f.pixel_samples_per_second * 1e-6,
+               f.rays_per_second * 1e-6, f.share, f.cpu_share, f.variance, f.seconds * f.variance);
+    if (bench.share_target > 0)
+        fmt::print("  share >= {}: {}", bench.share_target, verdict(f.share >= bench.share_target));
+    if (bench.work_target > 0)
+        fmt::print("  s x variance <= {:.1e}: {}", bench.work_target,
+                   verdict(f.seconds * f.variance <= bench.work_target));
     fmt::print("\n");
     std::fflush(stdout);
 }
 
 void print_loading(LoadingFigures const& f) {
-    fmt::print("{:<20}{:>10}  read {:.0f} ms + commit {:.0f} ms = {:.2f} x (file {:.0f} ms + Embree {:.0f} ms)  <= {}: {}\n", kLoadingBench,
-               f.triangles, f.read_seconds * 1e3, f.commit_seconds * 1e3, f.ratio(), f.file_seconds * 1e3, f.kernel_seconds * 1e3,
-               kLoadingTarget, verdict(f.ratio() <= kLoadingTarget));
+    fmt::print("{:<20}{:>10}  read {:.0f} ms + commit {:.0f} ms = {:.2f} x (file {:.0f} ms + "
+               "Embree {:.0f} ms)  <= {}: {}\n",
+               kLoadingBench, f.triangles, f.read_seconds * 1e3, f.commit_seconds * 1e3, f.ratio(),
+               f.file_seconds * 1e3, f.kernel_seconds * 1e3, kLoadingTarget,
+               verdict(f.ratio() <= kLoadingTarget));
 }
 
 int run(std::vector<std::string> names) {
     std::string output;
-    std::erase_if(names, [&](std::string const& s) { return s.ends_with(".json") && (output = s, true); });
+    std::erase_if(names,
+                  [&](std::string const& s) { return s.ends_with(".json") && (output = s, true); });
     std::vector<std::string> known{kLoadingBench};
     for (RenderBench const& bench : kRenderBenches) known.push_back(bench.name);
     for (std::string const& name : names)
         if (std::find(known.begin(), known.end(), name) == known.end()) {
-            fmt::print(stderr, "weft_bench: unknown benchmark '{}'; known: {}\n", name, fmt::join(known, ", "));
+            fmt::print(stderr, "weft_bench: unknown benchmark '{}'; known: {}\n", name,
+                       fmt::join(known, ", "));
             return 2;
         }
-    auto wanted = [&](std::string const& name) { return names.empty() || std::find(names.begin(), names.end(), name) != names.end(); };
+    auto wanted = [&](std::string const& name) {
+        return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
+    };
 
     make_assets(kAssets);
-    nlohmann::ordered_json report{{"threads", std::thread::hardware_concurrency()}, {"renders", nlohmann::ordered_json::array()}};
-    fmt::print("{:<20}{:>10}{:>9}{:>11}{:>9}{:>9}{:>9}{:>12}{:>12}\n", "scene", "triangles", "seconds", "Msamples/s", "Mrays/s", "share",
-               "cpu", "variance", "s x var");
+    nlohmann::ordered_json report{{"threads", std::thread::hardware_concurrency()},
+                                  {"renders", nlohmann::ordered_json::array()}};
+    fmt::print("{:<20}{:>10}{:>9}{:>11}{:>9}{:>9}{:>9}{:>12}{:>12}\n", "scene", "triangles",
+               "seconds", "Msamples/s", "Mrays/s", "share", "cpu", "variance", "s x var");
     world::RayRecorder recorder;
     for (RenderBench const& bench : kRenderBenches) {
         if (!wanted(bench.name)) continue;
@@ -103,7 +117,8 @@ int run(std::vector<std::string> names) {
         report["renders"].push_back(to_json(bench, f));
     }
     if (wanted(kLoadingBench)) {
-        LoadingFigures const f = measure_loading(kScenes + std::string(kLoadingBench) + ".xml", kAssets + "/million.ply");
+        LoadingFigures const f = measure_loading(kScenes + std::string(kLoadingBench) + ".xml",
+                                                 kAssets + "/million.ply");
         print_loading(f);
         report["loading"] = to_json(f);
     }

@@ -35,7 +35,8 @@ class Bytes {
 };
 
 std::string header(size_t vertices, std::string const& properties, size_t faces) {
-    std::string text = "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(vertices) + "\n";
+    std::string text =
+        "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(vertices) + "\n";
     for (char const* p : {"x", "y", "z"}) text += "property float " + std::string(p) + "\n";
     return text + properties + "element face " + std::to_string(faces) +
            "\nproperty list uchar uint vertex_indices\nend_header\n";
@@ -56,7 +57,8 @@ Vec3 normal_at(Vec2 uv, Vec3 (*p)(Vec2)) {
 void write_grid(std::string const& path, uint32_t columns, uint32_t rows, Vec3 (*p)(Vec2)) {
     Bytes out;
     std::string properties;
-    for (char const* name : {"nx", "ny", "nz", "s", "t"}) properties += "property float " + std::string(name) + "\n";
+    for (char const* name : {"nx", "ny", "nz", "s", "t"})
+        properties += "property float " + std::string(name) + "\n";
     out.text(header(size_t(columns + 1) * (rows + 1), properties, size_t(columns) * rows * 2));
     for (uint32_t j = 0; j <= rows; ++j)
         for (uint32_t i = 0; i <= columns; ++i) {
@@ -80,7 +82,8 @@ void write_quads(std::string const& path, std::vector<std::array<Vec3, 4>> const
     out.text(header(quads.size() * 4, "", quads.size()));
     for (auto const& quad : quads)
         for (Vec3 const& corner : quad) out.add(corner);
-    for (uint32_t i = 0; i < quads.size(); ++i) out.add_face({4 * i, 4 * i + 1, 4 * i + 2, 4 * i + 3});
+    for (uint32_t i = 0; i < quads.size(); ++i)
+        out.add_face({4 * i, 4 * i + 1, 4 * i + 2, 4 * i + 3});
     out.write(path);
 }
 

@@ -10,14 +10,17 @@ namespace weft::bench {
 namespace {
 
 Cost now() {
-    double const wall = std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    double const wall =
+        std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
     return {wall, double(std::clock()) / CLOCKS_PER_SEC};
 }
 
 /// One ray; returns something that depends on the answer.
 uint32_t trace(RTCScene scene, world::RecordedRay const& recorded) {
     world::Ray const& r = recorded.ray;
-    RTCRay const ray{r.origin.x, r.origin.y, r.origin.z, 0, r.direction.x, r.direction.y, r.direction.z, r.time, r.t_max, ~0u, 0, 0};
+    RTCRay const ray{
+        r.origin.x, r.origin.y, r.origin.z, 0, r.direction.x, r.direction.y, r.direction.z, r.time,
+        r.t_max,    ~0u,        0,          0};
     world::QueryContext context;
     world::init_context(&context);
     if (recorded.shadow) {
@@ -45,8 +48,10 @@ Cost replay(world::World const& world, world::RayRecorder const& rays) {
         for (size_t step = 0; step < lists.size(); ++step) {
             size_t const k = (own + step) % lists.size();
             auto const& list = *lists[k];
-            for (size_t from = next[k].fetch_add(chunk); from < list.size(); from = next[k].fetch_add(chunk))
-                for (size_t i = from; i < std::min(from + chunk, list.size()); ++i) mine += trace(world.embree_scene(), list[i]);
+            for (size_t from = next[k].fetch_add(chunk); from < list.size();
+                 from = next[k].fetch_add(chunk))
+                for (size_t i = from; i < std::min(from + chunk, list.size()); ++i)
+                    mine += trace(world.embree_scene(), list[i]);
         }
         sum += mine; // read by nobody, but an atomic store stays
     };

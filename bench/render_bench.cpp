@@ -11,7 +11,9 @@ namespace {
 /// Pixel samples whose rays are recorded at most; a path has about ten rays of 36 bytes each.
 constexpr double kRecordedSamples = 1 << 21;
 
-Cost keep_best(Cost const& best, Cost const& c) { return {std::min(best.wall, c.wall), std::min(best.cpu, c.cpu)}; }
+Cost keep_best(Cost const& best, Cost const& c) {
+    return {std::min(best.wall, c.wall), std::min(best.cpu, c.cpu)};
+}
 
 /// With a and b two independent renders, (a - b)^2 / 2 estimates the variance of a pixel of one.
 double relative_variance(image::Image const& a, image::Image const& b) {
@@ -44,7 +46,8 @@ RayCount count_rays(world::RayRecorder const& recorder) {
 
 } // namespace
 
-RenderFigures measure_render(std::string const& scene_file, world::RayRecorder& recorder, int rounds) {
+RenderFigures measure_render(std::string const& scene_file, world::RayRecorder& recorder,
+                             int rounds) {
     io::RenderJob const job = std::move(io::read_scene_file(scene_file).jobs.front());
     auto const world = world::World::commit(job.scene);
     Vec2i const size = world->camera().size();

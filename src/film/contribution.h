@@ -9,7 +9,16 @@
 namespace weft::film {
 
 /// What a path did at a vertex.
-enum class Bounce : uint8_t { None, Diffuse, Glossy, Specular, DiffuseTransmission, GlossyTransmission, SpecularTransmission, Volume };
+enum class Bounce : uint8_t {
+    None,
+    Diffuse,
+    Glossy,
+    Specular,
+    DiffuseTransmission,
+    GlossyTransmission,
+    SpecularTransmission,
+    Volume
+};
 
 /// The kinds of a path's bounces from the camera on: 4 bits each, the first 16 of them.
 class PathSignature {
@@ -20,7 +29,9 @@ class PathSignature {
     }
     uint32_t length() const { return length_; } ///< all bounces, those beyond the 16th included
     /// None beyond the end and beyond the 16th.
-    Bounce operator[](uint32_t i) const { return i < 16 ? Bounce((bits_ >> (4 * i)) & 15) : Bounce::None; }
+    Bounce operator[](uint32_t i) const {
+        return i < 16 ? Bounce((bits_ >> (4 * i)) & 15) : Bounce::None;
+    }
 
   private:
     uint64_t bits_ = 0;
@@ -28,8 +39,8 @@ class PathSignature {
 };
 
 struct Contribution {
-    Color value;                 ///< radiance at the camera
-    int32_t light = -1;          ///< index of the light; -1: an emissive object that is no light
+    Color value;        ///< radiance at the camera
+    int32_t light = -1; ///< index of the light; -1: an emissive object that is no light
     PathSignature const& path;
 };
 

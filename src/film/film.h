@@ -39,7 +39,8 @@ class Film {
     Region const& region() const { return region_; }
     /// `x`, `y` count from the corner of the whole picture.
     PixelSum& pixel(int x, int y) {
-        return pixels_[size_t(y - region_.from.y) * size_t(region_.width()) + size_t(x - region_.from.x)];
+        return pixels_[size_t(y - region_.from.y) * size_t(region_.width()) +
+                       size_t(x - region_.from.x)];
     }
     /// The mean of each pixel's samples, RGB; black where there is none yet.
     image::Image mean() const;

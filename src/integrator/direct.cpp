@@ -11,8 +11,8 @@ lobes::LobeValue ScatterPoint::eval(Vec3 const& wi) const {
     return {Color(phase), phase};
 }
 
-void direct(world::World const& world, scene::Strategy strategy, PathState const& path, ScatterPoint const& point,
-            Vec3 const& u, film::SampleSink& sink) {
+void direct(world::World const& world, scene::Strategy strategy, PathState const& path,
+            ScatterPoint const& point, Vec3 const& u, film::SampleSink& sink) {
     world::LightSample const light = world.lights().sample(point.p, point.n, u);
     // What rays can find is left to them where the strategy says so.
     if (!(light.pdf > 0) || (strategy == scene::Strategy::bsdf && !light.delta)) return;
@@ -26,17 +26,25 @@ void direct(world::World const& world, scene::Strategy strategy, PathState const
     if (light.distance < kInfinity) {
         // From the offset origin to just before the light, whose own offset was added to `p`.
         float const moved = dot(shadow.origin - point.p, light.wi);
-        shadow.t_max = (light.distance - moved) * (1 - 4 * std::numeric_limits<float>::epsilon()) - light.p_error;
+        shadow.t_max = (light.distance - moved) * (1 - 4 * std::numeric_limits<float>::epsilon()) -
+                       light.p_error;
         if (!(shadow.t_max > 0)) return;
     }
-    media::MediumStack media = path.media;
-    bool const crosses = point.surface && dot(light.wi, point.surface->ng) * dot(point.wo, point.surface->ng) < 0;
-    if (crosses && world.has_media()) cross_boundary(world, *point.surface, light.wi, media);
-    Color const through = transmittance(world, shadow, media);
+    Color through(world.visibility(shadow));
     if (is_black(through)) return;
+    if (world.has_media()) {
+        media::MediumStack media = path.media;
+        bool const crosses =
+            point.surface &&
+            dot(light.wi, point.surface->ng) * dot(point.wo, point.surface->ng) < 0;
+        if (crosses) cross_boundary(world, *point.surface, light.wi, media);
+        through *= media_transmittance(world, shadow, media);
+        if (is_black(through)) return;
+    }
     bool const combine = strategy == scene::Strategy::mis && !light.delta;
     float const weight = combine ? power_heuristic(light.pdf, value.pdf) : 1;
-    sink.add({path.throughput * value.f * light.radiance * through * (weight / light.pdf), light.light, path.signature});
+    sink.add({path.throughput * value.f * light.radiance * through * (weight / light.pdf),
+              light.light, path.signature});
 }
 
 float found_weight(scene::Strategy strategy, PathState const& path, float light_pdf) {

@@ -16,8 +16,8 @@ inline float power_heuristic(float pdf, float other) {
 
 /// One light sample at `point`, added to `sink`: light tree, shadow ray through transparent
 /// surfaces and media, MIS weight.
-void direct(world::World const& world, scene::Strategy strategy, PathState const& path, ScatterPoint const& point,
-            Vec3 const& u, film::SampleSink& sink);
+void direct(world::World const& world, scene::Strategy strategy, PathState const& path,
+            ScatterPoint const& point, Vec3 const& u, film::SampleSink& sink);
 
 /// The weight of light of density `light_pdf` that the ray of `path` found by itself.
 float found_weight(scene::Strategy strategy, PathState const& path, float light_pdf);

@@ -12,20 +12,22 @@ constexpr int kMaxCrossings = 1000;
 
 } // namespace
 
-void cross_boundary(world::World const& world, shading::SurfacePoint const& point, Vec3 const& direction, media::MediumStack& stack) {
+void cross_boundary(world::World const& world, shading::SurfacePoint const& point,
+                    Vec3 const& direction, media::MediumStack& stack) {
     if (!world.object(point.object).has_interior) return;
-    if (dot(direction, point.ng) < 0) stack.enter(world.interior(point.object, point.uv));
-    else stack.leave(point.object);
+    if (dot(direction, point.ng) < 0)
+        stack.enter(world.interior(point.object, point.uv));
+    else
+        stack.leave(point.object);
 }
 
-Color transmittance(world::World const& world, world::Ray ray, media::MediumStack stack) {
-    Color through(world.visibility(ray));
-    if (is_black(through) || !world.has_media()) return through;
-    // Nothing opaque lies ahead: the boundaries that are met only change the medium.
+Color media_transmittance(world::World const& world, world::Ray ray, media::MediumStack stack) {
+    Color through(1);
     for (int crossing = 0; crossing < kMaxCrossings; ++crossing) {
         world::Hit const hit = world.intersect(ray);
         int32_t const medium = stack.current().medium;
-        if (medium >= 0) through *= media::transmittance(world.medium(medium), std::min(hit.t, ray.t_max));
+        if (medium >= 0)
+            through *= media::transmittance(world.medium(medium), std::min(hit.t, ray.t_max));
         if (!hit || is_black(through)) return through;
         shading::SurfacePoint const point = world.surface(ray, hit);
         // Other surfaces are passed where their opacity leaves a hole: that leads into nothing.

@@ -13,34 +13,44 @@ using sampling::Dimension;
 film::Bounce bounce_kind(lobes::LobeFlags flags) {
     using lobes::LobeFlags;
     bool const through = any(flags, LobeFlags::Transmission);
-    if (any(flags, LobeFlags::Delta)) return through ? film::Bounce::SpecularTransmission : film::Bounce::Specular;
-    if (any(flags, LobeFlags::Glossy)) return through ? film::Bounce::GlossyTransmission : film::Bounce::Glossy;
+    if (any(flags, LobeFlags::Delta))
+        return through ? film::Bounce::SpecularTransmission : film::Bounce::Specular;
+    if (any(flags, LobeFlags::Glossy))
+        return through ? film::Bounce::GlossyTransmission : film::Bounce::Glossy;
     return through ? film::Bounce::DiffuseTransmission : film::Bounce::Diffuse;
 }
 
 /// Emission of a surface that the ray met.
 void add_emission(world::World const& world, PathSettings const& settings, PathState const& path,
-                  shading::SurfacePoint const& point, Color const& emission, film::SampleSink& sink) {
+                  shading::SurfacePoint const& point, Color const& emission,
+                  film::SampleSink& sink) {
     if (is_black(emission)) return;
     int32_t const light = world.object(point.object).light;
-    float const light_pdf = light >= 0 && path.pdf > 0 ? world.lights().pdf(light, path.p, path.n, point) : 0;
-    sink.add({path.throughput * emission * found_weight(settings.strategy, path, light_pdf), light, path.signature});
+    float const light_pdf =
+        light >= 0 && path.pdf > 0 ? world.lights().pdf(light, path.p, path.n, point) : 0;
+    sink.add({path.throughput * emission * found_weight(settings.strategy, path, light_pdf), light,
+              path.signature});
 }
 
 /// Light from infinitely far away along a ray that met nothing.
-void add_background(world::World const& world, PathSettings const& settings, PathState const& path, film::SampleSink& sink) {
-    world.lights().environment(path.p, path.n, path.ray.direction, [&](int32_t light, Color const& radiance, float pdf) {
-        sink.add({path.throughput * radiance * found_weight(settings.strategy, path, pdf), light, path.signature});
-    });
+void add_background(world::World const& world, PathSettings const& settings, PathState const& path,
+                    film::SampleSink& sink) {
+    world.lights().environment(
+        path.p, path.n, path.ray.direction, [&](int32_t light, Color const& radiance, float pdf) {
+            sink.add({path.throughput * radiance * found_weight(settings.strategy, path, pdf),
+                      light, path.signature});
+        });
 }
 
 /// Free flight through the current medium up to `limit`. Whether the path scattered, at the
 /// ray's new origin.
-bool fly(world::World const& world, PathState& path, float limit, sampling::SampleStream const& u, uint32_t vertex) {
+bool fly(world::World const& world, PathState& path, float limit, sampling::SampleStream const& u,
+         uint32_t vertex) {
     int32_t const medium = path.media.current().medium;
     if (medium < 0) return false;
     Vec2 const u_distance = u.get2(Dimension::Distance, vertex);
-    media::MediumSample const s = media::sample_distance(world.medium(medium), path.throughput, limit, u_distance);
+    media::MediumSample const s =
+        media::sample_distance(world.medium(medium), path.throughput, limit, u_distance);
     path.throughput *= s.weight;
     if (!s.scattered) return false;
     path.ray.origin += path.ray.direction * s.distance;
@@ -49,8 +59,8 @@ bool fly(world::World const& world, PathState& path, float limit, sampling::Samp
 }
 
 /// Light sampling at the ray's origin inside the medium, and a new direction.
-void scatter_in_medium(world::World const& world, PathSettings const& settings, PathState& path, uint32_t vertex,
-                       sampling::SampleStream const& u, film::SampleSink& sink) {
+void scatter_in_medium(world::World const& world, PathSettings const& settings, PathState& path,
+                       uint32_t vertex, sampling::SampleStream const& u, film::SampleSink& sink) {
     ScatterPoint point;
     point.p = path.ray.origin;
     point.wo = -path.ray.direction;
@@ -59,12 +69,14 @@ void scatter_in_medium(world::World const& world, PathSettings const& settings, 
     direct(world, settings.strategy, path, point, u.get3(Dimension::Light, vertex), sink);
     path.p = point.p;
     path.n = Vec3(0);
-    path.ray.direction = media::sample_henyey_greenstein(point.wo, point.g, u.get2(Dimension::Phase, vertex));
+    path.ray.direction =
+        media::sample_henyey_greenstein(point.wo, point.g, u.get2(Dimension::Phase, vertex));
     path.pdf = media::henyey_greenstein(dot(point.wo, path.ray.direction), point.g);
 }
 
 /// The rest of the path starts at `point` towards `direction`.
-void continue_from(world::World const& world, PathState& path, shading::SurfacePoint const& point, Vec3 const& direction, bool through) {
+void continue_from(world::World const& world, PathState& path, shading::SurfacePoint const& point,
+                   Vec3 const& direction, bool through) {
     if (through) cross_boundary(world, point, direction, path.media);
     path.ray.origin = shading::offset_origin(point, direction);
     path.ray.direction = direction;
@@ -75,7 +87,8 @@ void continue_from(world::World const& world, PathState& path, shading::SurfaceP
 /// makes it gentle: ending paths in proportion to what they carry costs more noise than it saves
 /// time.
 bool survives_roulette(PathState& path, float u) {
-    float const survival = std::min(1.f, std::sqrt(max_component(path.throughput) * path.eta_scale));
+    float const survival =
+        std::min(1.f, std::sqrt(max_component(path.throughput) * path.eta_scale));
     if (u >= survival) return false;
     path.throughput *= 1 / survival;
     return true;
@@ -84,14 +97,16 @@ bool survives_roulette(PathState& path, float u) {
 } // namespace
 
 void trace_path(world::World const& world, PathSettings const& settings, world::Ray const& ray,
-                media::MediumStack const& media, sampling::SampleStream const& u, film::SampleSink& sink) {
+                media::MediumStack const& media, sampling::SampleStream const& u,
+                film::SampleSink& sink) {
     PathState path;
     path.ray = ray;
     path.media = media;
     constexpr uint32_t max_crossings = 1000; // only broken geometry has so many
     uint32_t crossings = 0;
     for (uint32_t vertex = 1; vertex <= settings.depth; ++vertex) {
-        uint32_t const alpha_seed = world.has_alpha() ? u.walk(Dimension::Alpha, vertex + crossings).next_uint() : 0;
+        uint32_t const alpha_seed =
+            world.has_alpha() ? u.walk(Dimension::Alpha, vertex + crossings).next_uint() : 0;
         world::Hit const hit = world.intersect(path.ray, alpha_seed);
 
         if (fly(world, path, hit.t, u, vertex + crossings)) {
@@ -103,7 +118,8 @@ void trace_path(world::World const& world, PathSettings const& settings, world::
         } else {
             shading::SurfacePoint const point = world.surface(path.ray, hit);
             world::Object const& object = world.object(hit.object);
-            bool const hidden = object.has_interior && !path.media.is_visible(hit.object, object.priority);
+            bool const hidden =
+                object.has_interior && !path.media.is_visible(hit.object, object.priority);
             if (object.is_null || hidden) { // no vertex: straight on
                 if (++crossings > max_crossings) return;
                 continue_from(world, path, point, path.ray.direction, true);
@@ -117,7 +133,8 @@ void trace_path(world::World const& world, PathSettings const& settings, world::
 
             ScatterPoint const here{point.p, shading.bsdf.frame.n, wo, &shading.bsdf, &point};
             if (shading.bsdf.has_smooth() && !world.lights().empty())
-                direct(world, settings.strategy, path, here, u.get3(Dimension::Light, vertex), sink);
+                direct(world, settings.strategy, path, here, u.get3(Dimension::Light, vertex),
+                       sink);
 
             lobes::BsdfSample const s = shading.bsdf.sample(wo, u.get3(Dimension::Bsdf, vertex));
             if (!(s.pdf > 0)) return;
@@ -130,7 +147,9 @@ void trace_path(world::World const& world, PathSettings const& settings, world::
             continue_from(world, path, point, s.wi, any(s.flags, lobes::LobeFlags::Transmission));
         }
         if (is_black(path.throughput)) return;
-        if (vertex >= settings.roulette_depth && !survives_roulette(path, u.get1(Dimension::Roulette, vertex))) return;
+        if (vertex >= settings.roulette_depth &&
+            !survives_roulette(path, u.get1(Dimension::Roulette, vertex)))
+            return;
     }
 }
 

@@ -17,6 +17,7 @@ struct PathSettings {
 /// Follows one path from the camera and hands every contribution to `sink`. `media`: what the
 /// camera is in.
 void trace_path(world::World const& world, PathSettings const& settings, world::Ray const& ray,
-                media::MediumStack const& media, sampling::SampleStream const& u, film::SampleSink& sink);
+                media::MediumStack const& media, sampling::SampleStream const& u,
+                film::SampleSink& sink);
 
 } // namespace weft::integrator

@@ -15,21 +15,21 @@ struct PathState {
     film::PathSignature signature;
 
     // The last scattering, for weighing what the ray finds against what light sampling finds.
-    float pdf = 0;           ///< of the ray's direction; 0: delta or camera, which nothing else finds
-    Vec3 p{0, 0, 0};         ///< where it was
-    Vec3 n{0, 0, 0};         ///< normal there; 0 in a medium
-    float eta_scale = 1;     ///< undoes the radiance scaling of refraction for roulette
+    float pdf = 0;       ///< of the ray's direction; 0: delta or camera, which nothing else finds
+    Vec3 p{0, 0, 0};     ///< where it was
+    Vec3 n{0, 0, 0};     ///< normal there; 0 in a medium
+    float eta_scale = 1; ///< undoes the radiance scaling of refraction for roulette
 };
 
 /// A place where a path scatters: a surface with lobes, or a point in a medium with a phase
 /// function. `direct` treats both alike.
 struct ScatterPoint {
     Vec3 p{0, 0, 0};
-    Vec3 n{0, 0, 0};                              ///< 0 in a medium
+    Vec3 n{0, 0, 0}; ///< 0 in a medium
     Vec3 wo{0, 0, 1};
-    lobes::Bsdf const* bsdf = nullptr;            ///< of a surface
+    lobes::Bsdf const* bsdf = nullptr; ///< of a surface
     shading::SurfacePoint const* surface = nullptr;
-    float g = 0;                                  ///< of a medium
+    float g = 0; ///< of a medium
 
     lobes::LobeValue eval(Vec3 const& wi) const;
     /// Where a ray towards `wi` starts.

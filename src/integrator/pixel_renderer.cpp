@@ -11,35 +11,49 @@ constexpr uint32_t kUnlimited = 1u << 30;
 uint32_t depth_limit(int depth) { return depth < 0 ? kUnlimited : uint32_t(depth); }
 
 PathSettings path_settings(scene::Integrator const& integrator) {
-    return std::visit(Overloaded{
-                          [](scene::PathIntegrator const& i) {
-                              return PathSettings{i.strategy, depth_limit(i.depth), uint32_t(i.roulette_depth)};
-                          },
-                          []<class Type>(scene::NamedPathIntegrator<Type> const& i) {
-                              return PathSettings{Type::strategy, depth_limit(i.depth), PathSettings().roulette_depth};
-                          },
-                          [](scene::DirectIntegrator const&) { return PathSettings{scene::Strategy::nee, 2, 2}; },
-                          [](auto const&) { return PathSettings(); },
-                      },
-                      integrator);
+    return std::visit(
+        Overloaded{
+            [](scene::PathIntegrator const& i) {
+                return PathSettings{i.strategy, depth_limit(i.depth), uint32_t(i.roulette_depth)};
+            },
+            []<class Type>(scene::NamedPathIntegrator<Type> const& i) {
+                return PathSettings{Type::strategy, depth_limit(i.depth),
+                                    PathSettings().roulette_depth};
+            },
+            [](scene::DirectIntegrator const&) {
+                return PathSettings{scene::Strategy::nee, 2, 2};
+            },
+            [](auto const&) { return PathSettings(); },
+        },
+        integrator);
 }
 
 film::Filter make_filter(scene::RenderTarget const& target) {
     float const w = target.filter_width;
     switch (target.filter) {
-    case scene::FilterShape::box: return film::BoxFilter{w > 0 ? w / 2 : 0.5f};
-    case scene::FilterShape::tent: return film::TentFilter{w > 0 ? w / 2 : 1};
-    case scene::FilterShape::gaussian: return w > 0 ? film::GaussianFilter(w / 6) : film::GaussianFilter();
-    case scene::FilterShape::blackmanHarris: return w > 0 ? film::BlackmanHarrisFilter(w / 2) : film::BlackmanHarrisFilter();
+    case scene::FilterShape::box:
+        return film::BoxFilter{w > 0 ? w / 2 : 0.5f};
+    case scene::FilterShape::tent:
+        return film::TentFilter{w > 0 ? w / 2 : 1};
+    case scene::FilterShape::gaussian:
+        return w > 0 ? film::GaussianFilter(w / 6) : film::GaussianFilter();
+    case scene::FilterShape::blackmanHarris:
+        return w > 0 ? film::BlackmanHarrisFilter(w / 2) : film::BlackmanHarrisFilter();
     }
     return film::BoxFilter{};
 }
 
 sampling::SamplerKind sampler_kind(scene::Sampler const& sampler) {
     return std::visit(Overloaded{
-                          [](scene::SamplerSettings<scene::SobolType> const&) { return sampling::SamplerKind::Sobol; },
-                          [](scene::SamplerSettings<scene::HaltonType> const&) { return sampling::SamplerKind::Halton; },
-                          [](scene::SamplerSettings<scene::IndependentType> const&) { return sampling::SamplerKind::Independent; },
+                          [](scene::SamplerSettings<scene::SobolType> const&) {
+                              return sampling::SamplerKind::Sobol;
+                          },
+                          [](scene::SamplerSettings<scene::HaltonType> const&) {
+                              return sampling::SamplerKind::Halton;
+                          },
+                          [](scene::SamplerSettings<scene::IndependentType> const&) {
+                              return sampling::SamplerKind::Independent;
+                          },
                       },
                       sampler);
 }
@@ -49,8 +63,10 @@ Color direction_color(Vec3 const& v) { return as_color((v + Vec3(1)) * 0.5f); }
 
 } // namespace
 
-PixelRenderer::PixelRenderer(world::World const& world, scene::Integrator const& integrator, scene::Sampler const& sampler, uint32_t seed)
-    : world_(world), integrator_(integrator), path_(path_settings(integrator)), sampler_(sampler_kind(sampler)), seed_(seed),
+PixelRenderer::PixelRenderer(world::World const& world, scene::Integrator const& integrator,
+                             scene::Sampler const& sampler, uint32_t seed)
+    : world_(world), integrator_(integrator), path_(path_settings(integrator)),
+      sampler_(sampler_kind(sampler)), seed_(seed),
       filter_(make_filter(match(integrator, [](auto const& i) { return i.target; }))),
       media_(media_at(world, world.camera().position())) {}
 
@@ -69,10 +85,14 @@ Color PixelRenderer::trace(scene::AovIntegrator const& i, world::Ray const& ray)
     if (!hit) return normals ? Color(0.5f) / i.scale : Color(0);
     shading::SurfacePoint const point = world_.surface(ray, hit);
     switch (i.variable) {
-    case scene::AovVariable::normals: return direction_color(point.ns) / i.scale;
-    case scene::AovVariable::distance: return Color(hit.t) / i.scale;
-    case scene::AovVariable::uv: return Color(point.uv.x, point.uv.y, 0) / i.scale;
-    case scene::AovVariable::bvh: return Color(1) / i.scale;
+    case scene::AovVariable::normals:
+        return direction_color(point.ns) / i.scale;
+    case scene::AovVariable::distance:
+        return Color(hit.t) / i.scale;
+    case scene::AovVariable::uv:
+        return Color(point.uv.x, point.uv.y, 0) / i.scale;
+    case scene::AovVariable::bvh:
+        return Color(1) / i.scale;
     }
     return Color(0);
 }
@@ -87,7 +107,8 @@ Color PixelRenderer::trace(scene::NormalIntegrator const& i, world::Ray const& r
 Color PixelRenderer::trace(scene::AlbedoIntegrator const&, world::Ray const& ray) const {
     world::Hit const hit = world_.intersect(ray);
     if (!hit) return Color(0);
-    return world_.shade(world_.surface(ray, hit), -ray.direction, media_).bsdf.albedo(-ray.direction);
+    return world_.shade(world_.surface(ray, hit), -ray.direction, media_)
+        .bsdf.albedo(-ray.direction);
 }
 
 Color PixelRenderer::sample(Vec2i pixel, uint32_t sample) const {
@@ -96,7 +117,8 @@ Color PixelRenderer::sample(Vec2i pixel, uint32_t sample) const {
     Vec2 const offset = film::sample_filter(filter_, u.get2(Dimension::Film));
     Vec2 const raster(float(pixel.x) + 0.5f + offset.x, float(pixel.y) + 0.5f + offset.y);
     world::CameraRays const& camera = world_.camera();
-    world::Ray const ray = camera.ray(raster, camera.has_lens() ? u.get2(Dimension::Lens) : Vec2(0.5f), u.get1(Dimension::Time));
+    world::Ray const ray = camera.ray(
+        raster, camera.has_lens() ? u.get2(Dimension::Lens) : Vec2(0.5f), u.get1(Dimension::Time));
     return match(integrator_, [&](auto const& i) {
         if constexpr (requires { trace(i, ray); }) {
             return trace(i, ray);

@@ -9,7 +9,8 @@ namespace weft::integrator {
 
 class PixelRenderer {
   public:
-    PixelRenderer(world::World const& world, scene::Integrator const& integrator, scene::Sampler const& sampler, uint32_t seed);
+    PixelRenderer(world::World const& world, scene::Integrator const& integrator,
+                  scene::Sampler const& sampler, uint32_t seed);
 
     /// The radiance that sample number `sample` of `pixel` sees: a pure function of its arguments
     /// and the seed.

@@ -51,7 +51,7 @@ constexpr std::array<std::string_view, 22> kCurved{
     "scrv", "sp",     "end", "con",  "bzp",  "bsp",  "cdc",   "cdp",  "res",  "call", "csh"};
 
 class Reader {
-public:
+  public:
     Reader(std::string_view text, std::string const& name)
         : text_(text), name_(name), p_(text.data()), end_(text.data() + text.size()) {}
 
@@ -68,7 +68,7 @@ public:
         return std::move(lists_);
     }
 
-private:
+  private:
     void read_line(std::string_view keyword) {
         if (keyword == "v") {
             read_position();
@@ -244,7 +244,7 @@ void check_ranges(Lists const& lists, std::string_view text, std::string const& 
 
 /// Gives each distinct triple of indices one vertex. The vertices of a position form a list.
 class Unifier {
-public:
+  public:
     explicit Unifier(Lists const& lists)
         : lists_(lists), first_(lists.positions.size(), kNone), colored_(!lists.colors.empty()) {
         for (Corner const& c : lists.corners) {
@@ -269,7 +269,7 @@ public:
         return i;
     }
 
-private:
+  private:
     struct Key {
         uint32_t uv, normal, owner, next;
     };
@@ -316,8 +316,6 @@ scene::Mesh read_obj(std::string_view bytes, std::string const& name) {
     return mesh;
 }
 
-scene::Mesh read_obj(std::string const& path) {
-    return read_obj(read_file(path).view(), path);
-}
+scene::Mesh read_obj(std::string const& path) { return read_obj(read_file(path).view(), path); }
 
 } // namespace weft::io

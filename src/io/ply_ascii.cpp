@@ -8,7 +8,7 @@ namespace {
 
 /// Walks the values of a text body. One record is one line; blank lines are skipped.
 class Cursor {
-public:
+  public:
     Cursor(Source const& s, size_t at)
         : source_(s), p_(s.bytes.data() + at), end_(s.bytes.data() + s.bytes.size()) {}
 
@@ -72,7 +72,7 @@ public:
                          message);
     }
 
-private:
+  private:
     void skip_blanks() {
         while (p_ < end_ && is_blank(*p_)) ++p_;
     }

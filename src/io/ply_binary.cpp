@@ -49,7 +49,7 @@ int64_t load_integer(Scalar s, char const* p, bool swap) {
 
 /// Walks the bytes of a binary body.
 class Cursor {
-public:
+  public:
     Cursor(Source const& s, size_t at)
         : source_(s), p_(s.bytes.data() + at), end_(s.bytes.data() + s.bytes.size()),
           swap_((s.header.format == Format::big_endian) !=
@@ -94,7 +94,7 @@ public:
                             std::to_string(value));
     }
 
-private:
+  private:
     Source const& source_;
     char const* p_;
     char const* end_;

@@ -28,12 +28,13 @@ inline Color transmittance(Medium const& medium, float distance) {
 struct MediumSample {
     bool scattered; ///< at `distance`; else the path reached `distance_limit`
     float distance;
-    Color weight;   ///< transmittance (times scattering coefficient) over probability
+    Color weight; ///< transmittance (times scattering coefficient) over probability
 };
 
 /// Draws how far a path of the given throughput gets before it scatters. `u.x` picks the channel,
 /// `u.y` the distance; `distance_limit` may be infinite.
-inline MediumSample sample_distance(Medium const& medium, Color const& throughput, float distance_limit, Vec2 u) {
+inline MediumSample sample_distance(Medium const& medium, Color const& throughput,
+                                    float distance_limit, Vec2 u) {
     Color const sigma = medium.extinction();
     float const total = throughput.r + throughput.g + throughput.b;
     Color const pick = total > 0 ? throughput / total : Color(1 / 3.f);
@@ -44,7 +45,8 @@ inline MediumSample sample_distance(Medium const& medium, Color const& throughpu
     Color const density = scattered ? sigma * tr : tr;
     float const pdf = pick.r * density.r + pick.g * density.g + pick.b * density.b;
     if (!(pdf > 0)) return {false, distance_limit, Color(0)};
-    return {scattered, std::min(distance, distance_limit), (scattered ? medium.scattering * tr : tr) / pdf};
+    return {scattered, std::min(distance, distance_limit),
+            (scattered ? medium.scattering * tr : tr) / pdf};
 }
 
 } // namespace weft::media

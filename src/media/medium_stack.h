@@ -63,7 +63,8 @@ class MediumStack {
     uint32_t top(uint32_t without = UINT32_MAX - 1) const {
         uint32_t best = 0;
         for (uint32_t i = 1; i < size_; ++i)
-            if (entries_[i].object != without && entries_[i].priority >= entries_[best].priority) best = i;
+            if (entries_[i].object != without && entries_[i].priority >= entries_[best].priority)
+                best = i;
         return best;
     }
 

@@ -16,9 +16,7 @@ double turn(Point a, Point b, Point c) {
     return (b.x - a.x) * (c.y - b.y) - (b.y - a.y) * (c.x - b.x);
 }
 
-bool same(Point a, Point b) {
-    return a.x == b.x && a.y == b.y;
-}
+bool same(Point a, Point b) { return a.x == b.x && a.y == b.y; }
 
 /// Newell's sum: twice the vector area of a closed polygon.
 Vec3d vector_area(std::span<Vec3 const> positions, std::span<uint32_t const> polygon) {
@@ -41,7 +39,7 @@ Point project(Vec3 const& p, Vec3d const& normal) {
 /// Ear clipping over a circular list. An ear's state changes only where a neighbour goes, so
 /// n corners cost at most 3 n tests of n points each.
 class EarClipper {
-public:
+  public:
     explicit EarClipper(std::vector<Point> points)
         : points_(std::move(points)), next_(points_.size()), previous_(points_.size()),
           ear_(points_.size()), reflex_(points_.size()) {
@@ -75,7 +73,7 @@ public:
         emit(previous_[at], at, next_[at]);
     }
 
-private:
+  private:
     double turn_at(uint32_t i) const {
         return turn(points_[previous_[i]], points_[i], points_[next_[i]]);
     }

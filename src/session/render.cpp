@@ -15,7 +15,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 /// The end of the pass that starts at sample `from`: 1, 2, 4, ... so that a first picture is
 /// there soon, and then as many as keep tiles long enough not to matter.
@@ -36,7 +38,8 @@ class ProgressMeter {
         double const now = seconds_since(start_);
         if (!lock || now - last_ < 0.2) return;
         last_ = now;
-        options_.on_progress({done / total_, done / now, now, now * (total_ / done - 1), samples_done});
+        options_.on_progress(
+            {done / total_, done / now, now, now * (total_ / done - 1), samples_done});
     }
     void finish(uint32_t samples) {
         double const now = seconds();
@@ -62,20 +65,23 @@ class TileRenderer {
         for (int y = tile.from.y; y < tile.to.y; ++y)
             for (int x = tile.from.x; x < tile.to.x; ++x) {
                 film::PixelSum sum = film_.pixel(x, y);
-                for (uint32_t s = from; s < to; ++s) sum.add(checked(renderer_.sample({x, y}, s), {x, y}, s));
+                for (uint32_t s = from; s < to; ++s)
+                    sum.add(checked(renderer_.sample({x, y}, s), {x, y}, s));
                 film_.pixel(x, y) = sum;
             }
     }
 
   private:
     Color checked(Color const& c, Vec2i pixel, uint32_t sample) {
-        if (is_finite(c)) [[likely]] return c;
+        if (is_finite(c)) [[likely]]
+            return c;
         std::lock_guard lock(mutex_);
         ++result_.bad_samples;
         auto& list = result_.first_bad_samples;
         list.push_back({pixel, sample, c});
         auto key = [](BadSample const& b) { return std::tuple(b.pixel.y, b.pixel.x, b.sample); };
-        std::sort(list.begin(), list.end(), [&](auto const& a, auto const& b) { return key(a) < key(b); });
+        std::sort(list.begin(), list.end(),
+                  [&](auto const& a, auto const& b) { return key(a) < key(b); });
         if (list.size() > 4) list.pop_back();
         return Color(0);
     }
@@ -90,7 +96,8 @@ std::vector<film::Region> make_tiles(film::Region const& region, int size) {
     std::vector<film::Region> tiles;
     for (int y = region.from.y; y < region.to.y; y += size)
         for (int x = region.from.x; x < region.to.x; x += size)
-            tiles.push_back({{x, y}, {std::min(x + size, region.to.x), std::min(y + size, region.to.y)}});
+            tiles.push_back(
+                {{x, y}, {std::min(x + size, region.to.x), std::min(y + size, region.to.y)}});
     return tiles;
 }
 
@@ -100,9 +107,10 @@ film::Region region_of(world::World const& world, RenderOptions const& options) 
     film::Region const& c = *options.crop;
     bool const inside = c.from.x >= 0 && c.from.y >= 0 && c.to.x <= size.x && c.to.y <= size.y;
     if (!inside || c.width() <= 0 || c.height() <= 0)
-        throw InputError("--crop expects a region inside of the picture of " + std::to_string(size.x) + " x " + std::to_string(size.y) +
-                         " pixels, found " + std::to_string(c.from.x) + "," + std::to_string(c.from.y) + "," + std::to_string(c.to.x) + "," +
-                         std::to_string(c.to.y));
+        throw InputError(
+            "--crop expects a region inside of the picture of " + std::to_string(size.x) + " x " +
+            std::to_string(size.y) + " pixels, found " + std::to_string(c.from.x) + "," +
+            std::to_string(c.from.y) + "," + std::to_string(c.to.x) + "," + std::to_string(c.to.y));
     return c;
 }
 
@@ -112,7 +120,8 @@ int sample_count(scene::Sampler const& sampler) {
     return match(sampler, [](auto const& s) { return s.count; });
 }
 
-RenderResult render(world::World const& world, io::RenderJob const& job, RenderOptions const& options) {
+RenderResult render(world::World const& world, io::RenderJob const& job,
+                    RenderOptions const& options) {
     RenderResult result;
     result.region = region_of(world, options);
     result.samples = uint32_t(options.spp > 0 ? options.spp : sample_count(job.sampler));
@@ -122,19 +131,28 @@ RenderResult render(world::World const& world, io::RenderJob const& job, RenderO
     auto const regions = make_tiles(result.region, options.tile_size);
     double const pixels = double(result.region.width()) * result.region.height();
     ProgressMeter meter(options, pixels * result.samples);
-    auto cancelled = [&] { return options.cancel && options.cancel->load(std::memory_order_relaxed); };
+    auto cancelled = [&] {
+        return options.cancel && options.cancel->load(std::memory_order_relaxed);
+    };
 
-    int const threads = options.threads > 0 ? options.threads : int(std::max(1u, std::thread::hardware_concurrency()));
+    int const threads = options.threads > 0
+                            ? options.threads
+                            : int(std::max(1u, std::thread::hardware_concurrency()));
     tbb::task_arena arena(threads);
     arena.execute([&] {
-        for (uint32_t from = 0; from < result.samples && !cancelled(); from = pass_end(from, result.samples)) {
+        for (uint32_t from = 0; from < result.samples && !cancelled();
+             from = pass_end(from, result.samples)) {
             uint32_t const to = pass_end(from, result.samples);
-            tbb::parallel_for(tbb::blocked_range<size_t>(0, regions.size(), 1), [&](auto const& range) {
-                for (size_t i = range.begin(); i != range.end() && !cancelled(); ++i) {
-                    tiles.render(regions[i], from, to);
-                    meter.add(double(regions[i].width()) * regions[i].height() * (to - from), from);
-                }
-            }, tbb::simple_partitioner());
+            tbb::parallel_for(
+                tbb::blocked_range<size_t>(0, regions.size(), 1),
+                [&](auto const& range) {
+                    for (size_t i = range.begin(); i != range.end() && !cancelled(); ++i) {
+                        tiles.render(regions[i], from, to);
+                        meter.add(double(regions[i].width()) * regions[i].height() * (to - from),
+                                  from);
+                    }
+                },
+                tbb::simple_partitioner());
         }
     });
     result.cancelled = cancelled() && meter.done() < pixels * result.samples;

@@ -17,21 +17,22 @@
 namespace weft::session {
 
 struct Progress {
-    double fraction = 0;            ///< in [0, 1]
-    double samples_per_second = 0;  ///< pixel samples
-    double seconds = 0;             ///< since the start
-    double seconds_left = 0;        ///< estimate
-    uint32_t samples_done = 0;      ///< per pixel, in whole passes
+    double fraction = 0;           ///< in [0, 1]
+    double samples_per_second = 0; ///< pixel samples
+    double seconds = 0;            ///< since the start
+    double seconds_left = 0;       ///< estimate
+    uint32_t samples_done = 0;     ///< per pixel, in whole passes
 };
 
 struct RenderOptions {
-    int spp = 0; ///< samples per pixel; 0: what the scene says
+    int spp = 0;                      ///< samples per pixel; 0: what the scene says
     std::optional<film::Region> crop; ///< pixels of the whole picture
     int threads = 0;                  ///< 0: one per processor
     uint32_t seed = 0;
     int tile_size = 32; ///< pixels
-    std::function<void(Progress const&)> on_progress; ///< called a few times a second, by one thread at a time
-    std::atomic<bool> const* cancel = nullptr;        ///< set to stop at the next tile
+    std::function<void(Progress const&)>
+        on_progress; ///< called a few times a second, by one thread at a time
+    std::atomic<bool> const* cancel = nullptr; ///< set to stop at the next tile
 };
 
 /// A sample whose value was not finite; it counts as black.
@@ -56,6 +57,7 @@ struct RenderResult {
 int sample_count(scene::Sampler const& sampler);
 
 /// Throws InputError where the crop lies outside of the picture.
-RenderResult render(world::World const& world, io::RenderJob const& job, RenderOptions const& options);
+RenderResult render(world::World const& world, io::RenderJob const& job,
+                    RenderOptions const& options);
 
 } // namespace weft::session

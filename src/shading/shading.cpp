@@ -37,8 +37,10 @@ struct LobeBuilder {
     }
 
     void add_reflection(Color const& weight, float alpha, scene::Microfacets kind) const {
-        if (kind == scene::Microfacets::ggx) bsdf.add(weight, lobes::GgxReflection{{alpha, alpha}});
-        else bsdf.add(weight, lobes::BeckmannReflection{{alpha, alpha}});
+        if (kind == scene::Microfacets::ggx)
+            bsdf.add(weight, lobes::GgxReflection{{alpha, alpha}});
+        else
+            bsdf.add(weight, lobes::BeckmannReflection{{alpha, alpha}});
     }
 
     float operator()(scene::RoughConductor const& m) const {
@@ -48,16 +50,21 @@ struct LobeBuilder {
 
     float operator()(scene::Dielectric const& m) const {
         float const ior = at(m.ior);
-        bsdf.add(Color(1), lobes::SpecularDielectric{relative_ior(ior, boundary), at(m.reflectance), at(m.transmittance)});
+        bsdf.add(Color(1), lobes::SpecularDielectric{relative_ior(ior, boundary), at(m.reflectance),
+                                                     at(m.transmittance)});
         return ior;
     }
 
     float operator()(scene::RoughDielectric const& m) const {
-        float const ior = at(m.ior), eta = relative_ior(ior, boundary), alpha = alpha_of(at(m.roughness));
+        float const ior = at(m.ior), eta = relative_ior(ior, boundary),
+                    alpha = alpha_of(at(m.roughness));
         Color const r = at(m.reflectance), t = at(m.transmittance);
-        if (eta == 1) bsdf.add(Color(1), lobes::SpecularDielectric{1, r, t});
-        else if (m.distribution == scene::Microfacets::ggx) bsdf.add(Color(1), lobes::GgxDielectric({alpha, alpha}, eta, r, t));
-        else bsdf.add(Color(1), lobes::BeckmannDielectric({alpha, alpha}, eta, r, t));
+        if (eta == 1)
+            bsdf.add(Color(1), lobes::SpecularDielectric{1, r, t});
+        else if (m.distribution == scene::Microfacets::ggx)
+            bsdf.add(Color(1), lobes::GgxDielectric({alpha, alpha}, eta, r, t));
+        else
+            bsdf.add(Color(1), lobes::BeckmannDielectric({alpha, alpha}, eta, r, t));
         return ior;
     }
 
@@ -68,7 +75,8 @@ struct LobeBuilder {
         float const c = std::clamp(1 - cos_o, 0.f, 1.f);
         float const fresnel = at(m.specular) * (f0 + (1 - f0) * c * c * c * c * c);
         bsdf.add((1 - fresnel) * (1 - metallic) * base, lobes::Lambert{});
-        add_reflection(Color(fresnel) + (1 - fresnel) * metallic * base, alpha_of(at(m.roughness)), scene::Microfacets::ggx);
+        add_reflection(Color(fresnel) + (1 - fresnel) * metallic * base, alpha_of(at(m.roughness)),
+                       scene::Microfacets::ggx);
         return 1;
     }
 
@@ -80,12 +88,14 @@ struct LobeBuilder {
 Frame shading_frame(SurfacePoint const& point, Vec3 const& wo, Vec3 const& ng_facing_wo) {
     Vec3 n = dot(point.ns, ng_facing_wo) < 0 ? -point.ns : point.ns;
     constexpr float least_cosine = 1e-3f;
-    if (float const cosine = dot(n, wo); cosine < least_cosine) n = normalize(n + wo * (least_cosine - cosine));
+    if (float const cosine = dot(n, wo); cosine < least_cosine)
+        n = normalize(n + wo * (least_cosine - cosine));
     return Frame(n, point.dpdu);
 }
 
-float add_lobes(scene::Material const& material, Textures const& textures, SurfacePoint const& point,
-                Vec3 const& wo, Boundary const& boundary, lobes::Bsdf& bsdf) {
+float add_lobes(scene::Material const& material, Textures const& textures,
+                SurfacePoint const& point, Vec3 const& wo, Boundary const& boundary,
+                lobes::Bsdf& bsdf) {
     float const ior = match(material, LobeBuilder{textures, point, wo, boundary, bsdf});
     bsdf.prepare(wo);
     return ior;
@@ -93,7 +103,8 @@ float add_lobes(scene::Material const& material, Textures const& textures, Surfa
 
 float interior_ior(scene::Material const& material, Textures const& textures, Vec2 uv) {
     if (auto const* d = std::get_if<scene::Dielectric>(&material)) return textures.at(d->ior, uv);
-    if (auto const* d = std::get_if<scene::RoughDielectric>(&material)) return textures.at(d->ior, uv);
+    if (auto const* d = std::get_if<scene::RoughDielectric>(&material))
+        return textures.at(d->ior, uv);
     return 1;
 }
 

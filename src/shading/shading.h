@@ -10,14 +10,14 @@ namespace weft::shading {
 
 /// The indices of refraction on the two sides of a boundary, as `wo` finds them.
 struct Boundary {
-    bool entering = true;   ///< wo is on the front side, so that transmission goes in
-    float ior_outside = 1;  ///< of what surrounds the object here
+    bool entering = true;  ///< wo is on the front side, so that transmission goes in
+    float ior_outside = 1; ///< of what surrounds the object here
 };
 
 struct Shading {
     lobes::Bsdf bsdf;
-    Color emission;  ///< towards wo
-    float ior = 1;   ///< of the object's inside
+    Color emission; ///< towards wo
+    float ior = 1;  ///< of the object's inside
     explicit Shading(lobes::Bsdf const& b) : bsdf(b) {}
 };
 
@@ -27,8 +27,9 @@ Frame shading_frame(SurfacePoint const& point, Vec3 const& wo, Vec3 const& ng_fa
 
 /// Appends the material's lobes at `point`, seen from unit `wo`, to `bsdf`, and prepares it.
 /// Returns the index of refraction of the object's inside (1 where light does not go in).
-float add_lobes(scene::Material const& material, Textures const& textures, SurfacePoint const& point,
-                Vec3 const& wo, Boundary const& boundary, lobes::Bsdf& bsdf);
+float add_lobes(scene::Material const& material, Textures const& textures,
+                SurfacePoint const& point, Vec3 const& wo, Boundary const& boundary,
+                lobes::Bsdf& bsdf);
 
 /// Index of refraction of a closed object of this material at `uv`.
 float interior_ior(scene::Material const& material, Textures const& textures, Vec2 uv);

@@ -5,13 +5,15 @@ namespace weft::shading {
 namespace {
 
 Color pixel(image::Image const& image, int x, int y) {
-    float const* p = &image.pixels[(size_t(y) * size_t(image.width) + size_t(x)) * size_t(image.channels)];
+    float const* p =
+        &image.pixels[(size_t(y) * size_t(image.width) + size_t(x)) * size_t(image.channels)];
     return image.channels >= 3 ? Color(p[0], p[1], p[2]) : Color(p[0]);
 }
 
 /// The pixel index that the border rule makes of any index.
 int border_index(int i, int size, bool clamp) {
-    if (unsigned(i) < unsigned(size)) [[likely]] return i; // a division costs more than the lookup
+    if (unsigned(i) < unsigned(size)) [[likely]]
+        return i; // a division costs more than the lookup
     if (clamp) return std::clamp(i, 0, size - 1);
     int const r = i % size;
     return r < 0 ? r + size : r;
@@ -41,11 +43,14 @@ Textures::Textures(std::vector<scene::Texture> const& textures,
                    std::vector<std::shared_ptr<image::Image const>> const& images) {
     for (scene::Texture const& texture : textures) {
         std::visit(Overloaded{
-                       [&](scene::ConstantTexture const& t) { lookups_.emplace_back(ConstantLookup{t.value}); },
+                       [&](scene::ConstantTexture const& t) {
+                           lookups_.emplace_back(ConstantLookup{t.value});
+                       },
                        [&](scene::ImageTexture const& t) {
-                           lookups_.emplace_back(ImageLookup{images[size_t(t.filename.resource)], t.exposure,
-                                                             t.border == scene::TextureBorder::clamp,
-                                                             t.filter == scene::TextureFilter::nearest});
+                           lookups_.emplace_back(
+                               ImageLookup{images[size_t(t.filename.resource)], t.exposure,
+                                           t.border == scene::TextureBorder::clamp,
+                                           t.filter == scene::TextureFilter::nearest});
                        },
                        [&](scene::Checkerboard const& t) {
                            lookups_.emplace_back(CheckerboardLookup{t.color0, t.color1, t.scale});
@@ -56,10 +61,11 @@ Textures::Textures(std::vector<scene::Texture> const& textures,
 }
 
 Vec2i Textures::resolution(scene::TextureId id) const {
-    return match(lookups_[size_t(id.index)],
-                 Overloaded{[](ImageLookup const& l) { return Vec2i(l.image->width, l.image->height); },
-                            [](CheckerboardLookup const&) { return Vec2i(512, 256); },
-                            [](ConstantLookup const&) { return Vec2i(1, 1); }});
+    return match(
+        lookups_[size_t(id.index)],
+        Overloaded{[](ImageLookup const& l) { return Vec2i(l.image->width, l.image->height); },
+                   [](CheckerboardLookup const&) { return Vec2i(512, 256); },
+                   [](ConstantLookup const&) { return Vec2i(1, 1); }});
 }
 
 } // namespace weft::shading

@@ -12,9 +12,12 @@ Affine rotation_of(Affined const& m) {
 
 /// For each cell of a lat-long grid the mean luminance over the footprint of the bilinear filter:
 /// positive wherever a lookup in the cell can be, so that no light goes unsampled.
-std::vector<float> environment_cells(shading::Textures const& textures, scene::Input<Color> const& input, Vec2i size) {
+std::vector<float> environment_cells(shading::Textures const& textures,
+                                     scene::Input<Color> const& input, Vec2i size) {
     std::vector<float> values(size_t(size.x) * size_t(size.y)), cells(values.size());
-    auto at = [&](int x, int y) -> float& { return values[size_t(y) * size_t(size.x) + size_t(x)]; };
+    auto at = [&](int x, int y) -> float& {
+        return values[size_t(y) * size_t(size.x) + size_t(x)];
+    };
     for (int y = 0; y < size.y; ++y)
         for (int x = 0; x < size.x; ++x) {
             Vec2 const uv((float(x) + 0.5f) / float(size.x), (float(y) + 0.5f) / float(size.y));
@@ -35,11 +38,14 @@ std::vector<float> environment_cells(shading::Textures const& textures, scene::I
 }
 
 /// The triangle wound counter-clockwise about its vertex normals, which say where the front is.
-lights::MeshEmitter::Triangle front_first(TriangleData const& data, scene::Mesh::Triangle const& t) {
+lights::MeshEmitter::Triangle front_first(TriangleData const& data,
+                                          scene::Mesh::Triangle const& t) {
     auto const& [a, b, c] = t.v;
     if (data.normals.empty()) return {a, b, c};
-    Vec3 const normal = cross(data.positions[b] - data.positions[a], data.positions[c] - data.positions[a]);
-    bool const agrees = (dot(normal, data.normals[a] + data.normals[b] + data.normals[c]) < 0) == data.mirrored;
+    Vec3 const normal =
+        cross(data.positions[b] - data.positions[a], data.positions[c] - data.positions[a]);
+    bool const agrees =
+        (dot(normal, data.normals[a] + data.normals[b] + data.normals[c]) < 0) == data.mirrored;
     return agrees ? lights::MeshEmitter::Triangle{a, b, c} : lights::MeshEmitter::Triangle{a, c, b};
 }
 
@@ -50,7 +56,8 @@ float mean_luminance(shading::Textures const& textures, scene::Input<Color> cons
     constexpr int n = 32;
     double sum = 0;
     for (int i = 0; i < n * n; ++i)
-        sum += luminance(textures.at(input, {(float(i % n) + 0.5f) / n, (float(i / n) + 0.5f) / n}));
+        sum +=
+            luminance(textures.at(input, {(float(i % n) + 0.5f) / n, (float(i / n) + 0.5f) / n}));
     return float(sum / (n * n));
 }
 
@@ -73,7 +80,8 @@ void WorldBuilder::add_area_lights(std::vector<Light>& lights, std::vector<float
         AreaLight light{make(), object.emission, object.alpha};
         float const area = match(light.emitter, [](auto const& e) { return e.area(); });
         object.light = int32_t(lights.size());
-        weights.push_back(weight * kPi * area * mean_luminance(world_.textures_, emission.emission));
+        weights.push_back(weight * kPi * area *
+                          mean_luminance(world_.textures_, emission.emission));
         lights.emplace_back(std::move(light));
     }
 }
@@ -81,7 +89,8 @@ void WorldBuilder::add_area_lights(std::vector<Light>& lights, std::vector<float
 void WorldBuilder::build_lights() {
     RTCBounds bounds;
     rtcGetSceneBounds(world_.embree_scene_, &bounds);
-    Vec3 const extent(bounds.upper_x - bounds.lower_x, bounds.upper_y - bounds.lower_y, bounds.upper_z - bounds.lower_z);
+    Vec3 const extent(bounds.upper_x - bounds.lower_x, bounds.upper_y - bounds.lower_y,
+                      bounds.upper_z - bounds.lower_z);
     float const radius = is_finite(extent) && extent.x >= 0 ? 0.5f * length(extent) : 1;
     float const cross_section = kPi * square(std::max(radius, 1e-6f));
 
@@ -94,22 +103,30 @@ void WorldBuilder::build_lights() {
     for (scene::LightId id : scene_.contents.lights) {
         std::visit(Overloaded{
                        [&](scene::PointLight const& l) {
-                           add(lights::PointLight{l.position, l.power / (4 * kPi)}, l.weight, luminance(l.power));
+                           add(lights::PointLight{l.position, l.power / (4 * kPi)}, l.weight,
+                               luminance(l.power));
                        },
                        [&](scene::DirectionalLight const& l) {
-                           add(lights::DirectionalLight{normalize(l.direction), l.intensity}, l.weight, cross_section * luminance(l.intensity));
+                           add(lights::DirectionalLight{normalize(l.direction), l.intensity},
+                               l.weight, cross_section * luminance(l.intensity));
                        },
                        [&](scene::SpotLight const& l) {
-                           lights::SpotLight spot{l.position, normalize(l.direction), l.intensity, radians(l.angle), radians(l.falloff)};
+                           lights::SpotLight spot{l.position, normalize(l.direction), l.intensity,
+                                                  radians(l.angle), radians(l.falloff)};
                            add(spot, l.weight, luminance(spot.power()));
                        },
                        [&](scene::EnvironmentLight const& l) {
                            Affine const to_world = rotation_of(l.transform);
-                           Vec2i const size = l.texture.texture ? world_.textures_.resolution(l.texture.texture) : Vec2i(1, 1);
+                           Vec2i const size = l.texture.texture
+                                                  ? world_.textures_.resolution(l.texture.texture)
+                                                  : Vec2i(1, 1);
                            auto const cells = environment_cells(world_.textures_, l.texture, size);
-                           lights::EnvironmentSampler sampler(cells, uint32_t(size.x), uint32_t(size.y));
+                           lights::EnvironmentSampler sampler(cells, uint32_t(size.x),
+                                                              uint32_t(size.y));
                            float const power = cross_section * sampler.total();
-                           add(EnvironmentLight{l.texture, to_world, to_world.inverse(), std::move(sampler)}, l.weight, power);
+                           add(EnvironmentLight{l.texture, to_world, to_world.inverse(),
+                                                std::move(sampler)},
+                               l.weight, power);
                        },
                        [](scene::AreaLight const&) {},
                    },

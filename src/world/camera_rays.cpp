@@ -16,15 +16,18 @@ std::shared_ptr<Distribution2D const> aperture_density(image::Image const& image
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
             bool const grey = image.channels < 3;
-            float const v = luminance({image.at(x, y, 0), image.at(x, y, grey ? 0 : 1), image.at(x, y, grey ? 0 : 2)});
+            float const v = luminance(
+                {image.at(x, y, 0), image.at(x, y, grey ? 0 : 1), image.at(x, y, grey ? 0 : 2)});
             weights.push_back(std::isfinite(v) && v > 0 ? v : 0);
         }
-    return std::make_shared<Distribution2D const>(weights, uint32_t(image.width), uint32_t(image.height));
+    return std::make_shared<Distribution2D const>(weights, uint32_t(image.width),
+                                                  uint32_t(image.height));
 }
 
 } // namespace
 
-CameraRays::CameraRays(scene::Camera const& camera, std::vector<std::shared_ptr<image::Image const>> const& images) {
+CameraRays::CameraRays(scene::Camera const& camera,
+                       std::vector<std::shared_ptr<image::Image const>> const& images) {
     auto set_view = [&](scene::Viewpoint const& view, scene::FovAxis axis) {
         to_world_ = Affine(view.transform);
         size_ = {view.width, view.height};
@@ -42,7 +45,8 @@ CameraRays::CameraRays(scene::Camera const& camera, std::vector<std::shared_ptr<
                        focal_distance_ = c.focal_distance;
                        blades_ = c.blades;
                        blade_rotation_ = radians(c.blade_rotation);
-                       if (c.bokeh.resource >= 0) bokeh_ = aperture_density(*images[size_t(c.bokeh.resource)]);
+                       if (c.bokeh.resource >= 0)
+                           bokeh_ = aperture_density(*images[size_t(c.bokeh.resource)]);
                    },
                    [&](scene::Orthographic const& c) {
                        set_view(c.view, c.fov_axis);
@@ -73,14 +77,16 @@ Vec2 CameraRays::on_lens(Vec2 u) const {
     float const slot = u.x * float(blades_);
     float const blade = std::floor(slot);
     Vec2 const b = square_to_triangle({slot - blade, u.y});
-    float const from = blade_rotation_ + 2 * kPi * blade / float(blades_), to = from + 2 * kPi / float(blades_);
+    float const from = blade_rotation_ + 2 * kPi * blade / float(blades_),
+                to = from + 2 * kPi / float(blades_);
     return {b.x * std::cos(from) + b.y * std::cos(to), b.x * std::sin(from) + b.y * std::sin(to)};
 }
 
 Ray CameraRays::ray(Vec2 raster, Vec2 lens, float time) const {
     Vec3 origin(0), direction(0, 0, 1);
     if (projection_ == Projection::Environment) {
-        direction = lights::uv_to_direction({raster.x / float(size_.x), 1 - raster.y / float(size_.y)});
+        direction =
+            lights::uv_to_direction({raster.x / float(size_.x), 1 - raster.y / float(size_.y)});
     } else if (Vec2 const s = on_screen(raster); projection_ == Projection::Orthographic) {
         origin = {s.x, s.y, 0};
     } else {

@@ -14,7 +14,8 @@ namespace weft::world {
 class CameraRays {
   public:
     CameraRays() = default;
-    CameraRays(scene::Camera const& camera, std::vector<std::shared_ptr<image::Image const>> const& images);
+    CameraRays(scene::Camera const& camera,
+               std::vector<std::shared_ptr<image::Image const>> const& images);
 
     /// Replaces the size of the picture; the field of view stays what the scene says.
     void resize(Vec2i size) { size_ = size; }

@@ -21,9 +21,12 @@ uint32_t hit_object(RTCFilterFunctionNArguments const* args) {
     return instance != RTC_INVALID_GEOMETRY_ID ? instance : RTCHitN_geomID(args->hit, 1, 0);
 }
 
-float hit_opacity(RTCFilterFunctionNArguments const* args, FilterContext const& context, uint32_t object) {
-    Hit const hit{0, object, RTCHitN_primID(args->hit, 1, 0), RTCHitN_u(args->hit, 1, 0), RTCHitN_v(args->hit, 1, 0)};
-    Vec3 const ng(RTCHitN_Ng_x(args->hit, 1, 0), RTCHitN_Ng_y(args->hit, 1, 0), RTCHitN_Ng_z(args->hit, 1, 0));
+float hit_opacity(RTCFilterFunctionNArguments const* args, FilterContext const& context,
+                  uint32_t object) {
+    Hit const hit{0, object, RTCHitN_primID(args->hit, 1, 0), RTCHitN_u(args->hit, 1, 0),
+                  RTCHitN_v(args->hit, 1, 0)};
+    Vec3 const ng(RTCHitN_Ng_x(args->hit, 1, 0), RTCHitN_Ng_y(args->hit, 1, 0),
+                  RTCHitN_Ng_z(args->hit, 1, 0));
     return context.world->opacity(hit, ng);
 }
 
@@ -34,9 +37,12 @@ void filter_closest(RTCFilterFunctionNArguments const* args) {
     if (args->valid[0] == 0) return;
     uint32_t const object = hit_object(args), primitive = RTCHitN_primID(args->hit, 1, 0);
     // A sphere is one primitive that the ray may meet twice.
-    bool const back = RTCHitN_Ng_x(args->hit, 1, 0) * RTCRayN_dir_x(args->ray, 1, 0) + RTCHitN_Ng_y(args->hit, 1, 0) * RTCRayN_dir_y(args->ray, 1, 0) +
-                          RTCHitN_Ng_z(args->hit, 1, 0) * RTCRayN_dir_z(args->ray, 1, 0) > 0;
-    float const u = to_unit_float(hash_combine(hash_combine(context.seed, object), 2 * primitive + back));
+    bool const back = RTCHitN_Ng_x(args->hit, 1, 0) * RTCRayN_dir_x(args->ray, 1, 0) +
+                          RTCHitN_Ng_y(args->hit, 1, 0) * RTCRayN_dir_y(args->ray, 1, 0) +
+                          RTCHitN_Ng_z(args->hit, 1, 0) * RTCRayN_dir_z(args->ray, 1, 0) >
+                      0;
+    float const u =
+        to_unit_float(hash_combine(hash_combine(context.seed, object), 2 * primitive + back));
     if (u >= hit_opacity(args, context, object)) args->valid[0] = 0;
 }
 
@@ -45,7 +51,8 @@ void filter_shadow(RTCFilterFunctionNArguments const* args) {
     auto& context = *reinterpret_cast<FilterContext*>(args->context);
     if (args->valid[0] == 0) return;
     uint32_t const object = hit_object(args);
-    context.visibility *= context.world->object(object).is_null ? 1 : 1 - hit_opacity(args, context, object);
+    context.visibility *=
+        context.world->object(object).is_null ? 1 : 1 - hit_opacity(args, context, object);
     if (context.visibility > 0) args->valid[0] = 0;
 }
 
@@ -56,7 +63,18 @@ void throw_on_error(RTCDevice device) {
 }
 
 RTCRay to_kernel(Ray const& ray) {
-    return {ray.origin.x, ray.origin.y, ray.origin.z, ray.t_min, ray.direction.x, ray.direction.y, ray.direction.z, ray.time, ray.t_max, ~0u, 0, 0};
+    return {ray.origin.x,
+            ray.origin.y,
+            ray.origin.z,
+            ray.t_min,
+            ray.direction.x,
+            ray.direction.y,
+            ray.direction.z,
+            ray.time,
+            ray.t_max,
+            ~0u,
+            0,
+            0};
 }
 
 } // namespace
@@ -64,16 +82,18 @@ RTCRay to_kernel(Ray const& ray) {
 RTCGeometry WorldBuilder::make_mesh(TriangleData const& triangles) const {
     RTCGeometry const geometry = rtcNewGeometry(world_.device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto const& indices = triangles.source->triangles;
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, triangles.positions.data(), 0,
-                               sizeof(Vec3), triangles.positions.size() - 1);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, indices.data(), 0,
-                               sizeof(scene::Mesh::Triangle), indices.size());
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                               triangles.positions.data(), 0, sizeof(Vec3),
+                               triangles.positions.size() - 1);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, indices.data(),
+                               0, sizeof(scene::Mesh::Triangle), indices.size());
     return geometry;
 }
 
 RTCGeometry WorldBuilder::make_sphere(Vec3 const& centre, float radius) const {
     RTCGeometry const geometry = rtcNewGeometry(world_.device_, RTC_GEOMETRY_TYPE_SPHERE_POINT);
-    auto* data = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, 16, 1));
+    auto* data = static_cast<float*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, 16, 1));
     data[0] = centre.x;
     data[1] = centre.y;
     data[2] = centre.z;
@@ -92,7 +112,8 @@ void WorldBuilder::attach(RTCScene to, RTCGeometry geometry, uint32_t id, bool f
 }
 
 RTCScene WorldBuilder::instanced_scene(Object const& object) {
-    RTCScene& scene = object.kind == ObjectKind::Sphere ? sphere_scene_ : mesh_scenes_[object.triangles];
+    RTCScene& scene =
+        object.kind == ObjectKind::Sphere ? sphere_scene_ : mesh_scenes_[object.triangles];
     if (scene) return scene;
     scene = rtcNewScene(world_.device_);
     world_.instanced_scenes_.push_back(scene);
@@ -103,7 +124,8 @@ RTCScene WorldBuilder::instanced_scene(Object const& object) {
     // The instances share these filters: those without opacity answer 1.
     bool filtered = false;
     for (Object const& o : world_.objects_)
-        filtered |= o.instanced && o.kind == object.kind && o.triangles == object.triangles && (o.has_alpha || o.is_null);
+        filtered |= o.instanced && o.kind == object.kind && o.triangles == object.triangles &&
+                    (o.has_alpha || o.is_null);
     attach(scene, geometry, 0, filtered);
     rtcCommitScene(scene);
     return scene;
@@ -112,7 +134,9 @@ RTCScene WorldBuilder::instanced_scene(Object const& object) {
 void WorldBuilder::build_kernel_scene(CommitOptions const& options) {
     std::string const config = options.isa.empty() ? "" : "isa=" + options.isa;
     world_.device_ = rtcNewDevice(config.c_str());
-    if (!world_.device_) throw InputError("the ray kernel cannot be started" + (config.empty() ? "" : " with " + config));
+    if (!world_.device_)
+        throw InputError("the ray kernel cannot be started" +
+                         (config.empty() ? "" : " with " + config));
     world_.embree_scene_ = rtcNewScene(world_.device_);
     rtcSetSceneFlags(world_.embree_scene_, RTC_SCENE_FLAG_ROBUST);
     for (uint32_t id = 0; id < world_.objects_.size(); ++id) {
@@ -124,9 +148,11 @@ void WorldBuilder::build_kernel_scene(CommitOptions const& options) {
             rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &o.to_world);
             attach(world_.embree_scene_, instance, id, false);
         } else if (o.kind == ObjectKind::Sphere) {
-            attach(world_.embree_scene_, make_sphere(o.to_world.origin, length(o.to_world.x)), id, o.has_alpha || o.is_null);
+            attach(world_.embree_scene_, make_sphere(o.to_world.origin, length(o.to_world.x)), id,
+                   o.has_alpha || o.is_null);
         } else {
-            attach(world_.embree_scene_, make_mesh(world_.triangles_[size_t(o.triangles)]), id, o.has_alpha || o.is_null);
+            attach(world_.embree_scene_, make_mesh(world_.triangles_[size_t(o.triangles)]), id,
+                   o.has_alpha || o.is_null);
         }
     }
     rtcCommitScene(world_.embree_scene_);
@@ -134,7 +160,8 @@ void WorldBuilder::build_kernel_scene(CommitOptions const& options) {
 }
 
 Hit World::intersect(Ray const& ray, uint32_t alpha_seed) const {
-    if (recorder_) [[unlikely]] recorder_->record(ray, false);
+    if (recorder_) [[unlikely]]
+        recorder_->record(ray, false);
     FilterContext context;
     init_context(&context.query);
     context.world = this;
@@ -146,11 +173,13 @@ Hit World::intersect(Ray const& ray, uint32_t alpha_seed) const {
     embree_intersect(embree_scene_, &context.query, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
     bool const instanced = query.hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
-    return {query.ray.tfar, instanced ? query.hit.instID[0] : query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v};
+    return {query.ray.tfar, instanced ? query.hit.instID[0] : query.hit.geomID, query.hit.primID,
+            query.hit.u, query.hit.v};
 }
 
 float World::visibility(Ray const& ray) const {
-    if (recorder_) [[unlikely]] recorder_->record(ray, true);
+    if (recorder_) [[unlikely]]
+        recorder_->record(ray, true);
     FilterContext context;
     init_context(&context.query);
     context.world = this;

@@ -5,11 +5,13 @@
 namespace weft::world {
 
 LightTable::LightTable(std::vector<Light> lights, std::span<float const> weights,
-                       std::vector<scene::LambertianEmission> emissions, shading::Textures const* textures)
+                       std::vector<scene::LambertianEmission> emissions,
+                       shading::Textures const* textures)
     : lights_(std::move(lights)), emissions_(std::move(emissions)), textures_(textures) {
     if (!lights_.empty()) choice_ = lights::LightChoice(weights);
     for (size_t i = 0; i < lights_.size(); ++i)
-        if (std::holds_alternative<EnvironmentLight>(lights_[i])) environments_.push_back(int32_t(i));
+        if (std::holds_alternative<EnvironmentLight>(lights_[i]))
+            environments_.push_back(int32_t(i));
 }
 
 namespace {
@@ -27,20 +29,30 @@ LightSample from_delta(lights::DeltaLightSample const& s) {
 
 } // namespace
 
-LightSample LightTable::sample_light(lights::PointLight const& l, Vec3 const& ref, Vec2) const { return from_delta(l.sample(ref)); }
-LightSample LightTable::sample_light(lights::DirectionalLight const& l, Vec3 const& ref, Vec2) const { return from_delta(l.sample(ref)); }
-LightSample LightTable::sample_light(lights::SpotLight const& l, Vec3 const& ref, Vec2) const { return from_delta(l.sample(ref)); }
+LightSample LightTable::sample_light(lights::PointLight const& l, Vec3 const& ref, Vec2) const {
+    return from_delta(l.sample(ref));
+}
+LightSample LightTable::sample_light(lights::DirectionalLight const& l, Vec3 const& ref,
+                                     Vec2) const {
+    return from_delta(l.sample(ref));
+}
+LightSample LightTable::sample_light(lights::SpotLight const& l, Vec3 const& ref, Vec2) const {
+    return from_delta(l.sample(ref));
+}
 
 LightSample LightTable::sample_light(AreaLight const& l, Vec3 const& ref, Vec2 u) const {
-    lights::EmitterSample const s = match(l.emitter, [&](auto const& e) { return e.sample(ref, u); });
+    lights::EmitterSample const s =
+        match(l.emitter, [&](auto const& e) { return e.sample(ref, u); });
     LightSample sample;
     if (!(s.pdf > 0) || dot(s.n, s.wi) >= 0) return sample; // nothing, or its back
     sample.wi = s.wi;
     sample.distance = s.distance;
-    sample.radiance = textures_->at(emissions_[size_t(l.emission.index)].emission, s.uv) * textures_->at(l.alpha, s.uv);
+    sample.radiance = textures_->at(emissions_[size_t(l.emission.index)].emission, s.uv) *
+                      textures_->at(l.alpha, s.uv);
     sample.pdf = s.pdf;
     // As far off the light as a ray that leaves it would start.
-    Vec3 const extent = abs(s.p) + Vec3(std::sqrt(match(l.emitter, [](auto const& e) { return e.area(); })));
+    Vec3 const extent =
+        abs(s.p) + Vec3(std::sqrt(match(l.emitter, [](auto const& e) { return e.area(); })));
     // Along a flat ray that is further.
     sample.p_error = kRounding * dot(abs(s.n), extent) / std::max(-dot(s.n, s.wi), 1e-4f);
     return sample;
@@ -59,17 +71,22 @@ LightSample LightTable::sample_light(EnvironmentLight const& l, Vec3 const&, Vec
 LightSample LightTable::sample(Vec3 const& ref, Vec3 const& n, Vec3 const& u) const {
     auto const choice = choice_.choose(ref, n, u.z);
     if (!(choice.probability > 0)) return {};
-    LightSample sample = match(lights_[choice.index], [&](auto const& l) { return sample_light(l, ref, {u.x, u.y}); });
+    LightSample sample = match(lights_[choice.index], [&](auto const& l) {
+        return sample_light(l, ref, {u.x, u.y});
+    });
     sample.pdf *= choice.probability;
     sample.light = int32_t(choice.index);
     return sample;
 }
 
-float LightTable::pdf(int32_t light, Vec3 const& ref, Vec3 const& n, shading::SurfacePoint const& point) const {
+float LightTable::pdf(int32_t light, Vec3 const& ref, Vec3 const& n,
+                      shading::SurfacePoint const& point) const {
     auto const& area = std::get<AreaLight>(lights_[size_t(light)]);
     float const choice = choice_.probability(ref, n, uint32_t(light));
     if (choice == 0) return 0;
-    return choice * match(area.emitter, [&](auto const& e) { return e.pdf(ref, point.p, point.ng, point.primitive); });
+    return choice * match(area.emitter, [&](auto const& e) {
+               return e.pdf(ref, point.p, point.ng, point.primitive);
+           });
 }
 
 } // namespace weft::world

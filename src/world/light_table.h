@@ -29,15 +29,16 @@ struct EnvironmentLight {
     lights::EnvironmentSampler sampler;
 };
 
-using Light = std::variant<lights::PointLight, lights::DirectionalLight, lights::SpotLight, AreaLight, EnvironmentLight>;
+using Light = std::variant<lights::PointLight, lights::DirectionalLight, lights::SpotLight,
+                           AreaLight, EnvironmentLight>;
 
 struct LightSample {
     Vec3 wi{0, 0, 1};
-    float distance = 0;     ///< infinite for lights at infinity
-    Color radiance;         ///< for delta lights: irradiance on a facing surface
-    float pdf = 0;          ///< per solid angle, times the chance of the light; 0 = no sample
-    bool delta = false;     ///< `pdf` is the chance of the light alone
-    float p_error = 0;      ///< how near to the light a shadow ray may go
+    float distance = 0; ///< infinite for lights at infinity
+    Color radiance;     ///< for delta lights: irradiance on a facing surface
+    float pdf = 0;      ///< per solid angle, times the chance of the light; 0 = no sample
+    bool delta = false; ///< `pdf` is the chance of the light alone
+    float p_error = 0;  ///< how near to the light a shadow ray may go
     int32_t light = -1;
 };
 
@@ -55,7 +56,8 @@ class LightTable {
     /// u.xy places the point, u.z chooses the light.
     LightSample sample(Vec3 const& ref, Vec3 const& n, Vec3 const& u) const;
     /// The density with which `sample` gives a point that a ray found on the light.
-    float pdf(int32_t light, Vec3 const& ref, Vec3 const& n, shading::SurfacePoint const& point) const;
+    float pdf(int32_t light, Vec3 const& ref, Vec3 const& n,
+              shading::SurfacePoint const& point) const;
 
     /// Radiance of all environments from unit direction `d`, each with the density with which
     /// `sample` gives that direction: calls f(light, radiance, pdf).

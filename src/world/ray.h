@@ -14,7 +14,7 @@ struct Ray {
     /// Hits must lie beyond this. Not 0: the kernel takes a ray that starts in the very plane of
     /// a triangle as hitting it at 0.
     float t_min = 1e-18f;
-    float time = 0;       ///< in [0, 1] of the shutter interval
+    float time = 0; ///< in [0, 1] of the shutter interval
 };
 
 /// The kernel's answer: which primitive, and where on it.

@@ -6,11 +6,14 @@ namespace weft::world {
 namespace {
 
 Vec3 max_abs(Vec3 const& a, Vec3 const& b) {
-    return {std::max(std::abs(a.x), std::abs(b.x)), std::max(std::abs(a.y), std::abs(b.y)), std::max(std::abs(a.z), std::abs(b.z))};
+    return {std::max(std::abs(a.x), std::abs(b.x)), std::max(std::abs(a.y), std::abs(b.y)),
+            std::max(std::abs(a.z), std::abs(b.z))};
 }
 
 /// |M| v for a vector v of absolute values.
-Vec3 absolute_vector(Affine const& m, Vec3 const& v) { return abs(m.x) * v.x + abs(m.y) * v.y + abs(m.z) * v.z; }
+Vec3 absolute_vector(Affine const& m, Vec3 const& v) {
+    return abs(m.x) * v.x + abs(m.y) * v.y + abs(m.z) * v.z;
+}
 
 } // namespace
 
@@ -20,8 +23,10 @@ shading::SurfacePoint World::surface(Ray const& ray, Hit const& hit) const {
     point.t = hit.t;
     point.object = hit.object;
     point.primitive = hit.primitive;
-    if (object.kind == ObjectKind::Sphere) sphere_point(object, ray, hit, point);
-    else mesh_point(object, hit, point);
+    if (object.kind == ObjectKind::Sphere)
+        sphere_point(object, ray, hit, point);
+    else
+        mesh_point(object, hit, point);
     if (object.normal_map) apply_normal_map(object, point);
     return point;
 }
@@ -43,7 +48,8 @@ void World::mesh_point(Object const& object, Hit const& hit, shading::SurfacePoi
     point.p_error = max_abs(max_abs(a, b), c);
     Vec3 normal = cross(e1, e2);
     if (data.mirrored) normal = -normal;
-    if (!data.normals.empty()) point.ns = data.normals[v[0]] * w + data.normals[v[1]] * hit.u + data.normals[v[2]] * hit.v;
+    if (!data.normals.empty())
+        point.ns = data.normals[v[0]] * w + data.normals[v[1]] * hit.u + data.normals[v[2]] * hit.v;
     point.uv = mesh_uv(object, hit);
     if (auto const& uvs = data.source->uvs; !uvs.empty()) {
         Vec2 const d1 = uvs[v[1]] - uvs[v[0]], d2 = uvs[v[2]] - uvs[v[0]];
@@ -55,7 +61,8 @@ void World::mesh_point(Object const& object, Hit const& hit, shading::SurfacePoi
         if (!data.normals.empty()) point.ns = object.to_object.transposed(point.ns);
         point.dpdu = object.to_world.vector(point.dpdu);
         point.p = object.to_world.point(point.p);
-        point.p_error = absolute_vector(object.to_world, point.p_error) + abs(object.to_world.origin);
+        point.p_error =
+            absolute_vector(object.to_world, point.p_error) + abs(object.to_world.origin);
     }
     point.p_error *= kRounding;
     point.ng = normalize(normal);
@@ -68,14 +75,16 @@ void World::mesh_point(Object const& object, Hit const& hit, shading::SurfacePoi
     }
 }
 
-void World::sphere_point(Object const& object, Ray const& ray, Hit const& hit, shading::SurfacePoint& point) const {
+void World::sphere_point(Object const& object, Ray const& ray, Hit const& hit,
+                         shading::SurfacePoint& point) const {
     // Back onto the unit sphere: what t has lost does not matter then.
     Vec3 const local = normalize(object.to_object.point(ray.origin + ray.direction * hit.t));
     point.p = object.to_world.point(local);
     point.ng = point.ns = normalize(object.to_object.transposed(local));
     point.uv = lights::direction_to_uv(local);
     point.dpdu = object.to_world.vector(Vec3(local.z, 0, -local.x));
-    point.p_error = (absolute_vector(object.to_world, Vec3(1)) + abs(object.to_world.origin)) * kRounding;
+    point.p_error =
+        (absolute_vector(object.to_world, Vec3(1)) + abs(object.to_world.origin)) * kRounding;
 }
 
 void World::apply_normal_map(Object const& object, shading::SurfacePoint& point) const {
@@ -91,7 +100,8 @@ float World::opacity(Hit const& hit, Vec3 const& ng) const {
     if (!o.alpha.texture) return o.alpha.value;
     if (o.kind == ObjectKind::Mesh) return textures_.at(o.alpha, mesh_uv(o, hit));
     // A sphere's normal says where on it the hit is; that of an instance is local already.
-    return textures_.at(o.alpha, lights::direction_to_uv(o.instanced ? ng : o.to_object.vector(ng)));
+    return textures_.at(o.alpha,
+                        lights::direction_to_uv(o.instanced ? ng : o.to_object.vector(ng)));
 }
 
 Color World::emission(shading::SurfacePoint const& point, Vec3 const& wo) const {
@@ -100,7 +110,8 @@ Color World::emission(shading::SurfacePoint const& point, Vec3 const& wo) const 
     return textures_.at(scene_->emissions[size_t(o.emission.index)].emission, point.uv);
 }
 
-shading::Shading World::shade(shading::SurfacePoint const& point, Vec3 const& wo, media::MediumStack const& stack) const {
+shading::Shading World::shade(shading::SurfacePoint const& point, Vec3 const& wo,
+                              media::MediumStack const& stack) const {
     Object const& o = objects_[point.object];
     bool const entering = dot(point.ng, wo) > 0;
     Vec3 const ng = entering ? point.ng : -point.ng;
@@ -108,14 +119,18 @@ shading::Shading World::shade(shading::SurfacePoint const& point, Vec3 const& wo
     shading.emission = emission(point, wo);
     if (o.material) {
         shading::Boundary const boundary{entering, stack.current_without(point.object).ior};
-        shading.ior = shading::add_lobes(scene_->materials[size_t(o.material.index)], textures_, point, wo, boundary, shading.bsdf);
+        shading.ior = shading::add_lobes(scene_->materials[size_t(o.material.index)], textures_,
+                                         point, wo, boundary, shading.bsdf);
     }
     return shading;
 }
 
 media::Interior World::interior(uint32_t object, Vec2 uv) const {
     Object const& o = objects_[object];
-    float const ior = o.material ? shading::interior_ior(scene_->materials[size_t(o.material.index)], textures_, uv) : 1;
+    float const ior =
+        o.material
+            ? shading::interior_ior(scene_->materials[size_t(o.material.index)], textures_, uv)
+            : 1;
     return {object, o.priority, ior, o.medium};
 }
 

@@ -15,8 +15,8 @@
 #include "media/medium_stack.h"
 #include "scene/scene.h"
 #include "shading/shading.h"
-#include "world/embree.h"
 #include "world/camera_rays.h"
+#include "world/embree.h"
 #include "world/light_table.h"
 #include "world/ray.h"
 #include "world/ray_recorder.h"
@@ -25,34 +25,34 @@ namespace weft::world {
 
 /// A triangle mesh as the render reads it, in the space of its object.
 struct TriangleData {
-    std::vector<Vec3> positions;              ///< one more than there are, for the kernel's loads
-    std::vector<Vec3> normals;                ///< of any length, to be interpolated; empty: flat
+    std::vector<Vec3> positions;               ///< one more than there are, for the kernel's loads
+    std::vector<Vec3> normals;                 ///< of any length, to be interpolated; empty: flat
     std::shared_ptr<scene::Mesh const> source; ///< indices and uvs
-    bool mirrored = false;                    ///< counter-clockwise is the back
+    bool mirrored = false;                     ///< counter-clockwise is the back
 };
 
 enum class ObjectKind : uint8_t { Mesh, Sphere };
 
 struct Object {
     ObjectKind kind = ObjectKind::Mesh;
-    bool instanced = false;            ///< hits are in the object's own space
+    bool instanced = false; ///< hits are in the object's own space
     bool has_alpha = false;
-    int32_t triangles = -1;            ///< index of the TriangleData
+    int32_t triangles = -1; ///< index of the TriangleData
     scene::MaterialId material;
     scene::EmissionId emission;
     scene::TextureId normal_map;
     scene::Input<float> alpha{1};
-    int32_t light = -1;                ///< index of the light that samples it; -1 none
-    int32_t medium = -1;               ///< what fills it
+    int32_t light = -1;  ///< index of the light that samples it; -1 none
+    int32_t medium = -1; ///< what fills it
     int32_t priority = 0;
-    bool has_interior = false;         ///< crossing its surface changes the medium stack
-    bool is_null = false;              ///< no surface: rays pass straight on
+    bool has_interior = false; ///< crossing its surface changes the medium stack
+    bool is_null = false;      ///< no surface: rays pass straight on
     Affine to_world, to_object;
-    int32_t source_instance = -1;      ///< of the scene, for messages
+    int32_t source_instance = -1; ///< of the scene, for messages
 };
 
 struct CommitOptions {
-    std::string isa; ///< Embree's kernels: "sse2", "avx2", "avx512"; "" is the best there is
+    std::string isa;  ///< Embree's kernels: "sse2", "avx2", "avx512"; "" is the best there is
     Vec2i size{0, 0}; ///< of the picture, instead of the scene's; 0: the scene's
 };
 
@@ -111,7 +111,8 @@ class World {
     World() = default;
 
     void mesh_point(Object const& object, Hit const& hit, shading::SurfacePoint& point) const;
-    void sphere_point(Object const& object, Ray const& ray, Hit const& hit, shading::SurfacePoint& point) const;
+    void sphere_point(Object const& object, Ray const& ray, Hit const& hit,
+                      shading::SurfacePoint& point) const;
     Vec2 mesh_uv(Object const& object, Hit const& hit) const;
     void apply_normal_map(Object const& object, shading::SurfacePoint& point) const;
 

@@ -19,13 +19,15 @@ std::shared_ptr<scene::Mesh const> make_rectangle() {
 
 bool keeps_round(Affined const& m) {
     double const a = length(m.x), b = length(m.y), c = length(m.z), least = 1e-6 * a;
-    return std::abs(a - b) < least && std::abs(a - c) < least && std::abs(dot(m.x, m.y)) < least * a &&
-           std::abs(dot(m.y, m.z)) < least * a && std::abs(dot(m.z, m.x)) < least * a;
+    return std::abs(a - b) < least && std::abs(a - c) < least &&
+           std::abs(dot(m.x, m.y)) < least * a && std::abs(dot(m.y, m.z)) < least * a &&
+           std::abs(dot(m.z, m.x)) < least * a;
 }
 
 } // namespace
 
-std::unique_ptr<World const> World::commit(std::shared_ptr<scene::Scene const> scene, CommitOptions const& options) {
+std::unique_ptr<World const> World::commit(std::shared_ptr<scene::Scene const> scene,
+                                           CommitOptions const& options) {
     std::unique_ptr<World> world(new World);
     world->scene_ = scene;
     WorldBuilder(*world, *scene).build(options);
@@ -68,7 +70,8 @@ void WorldBuilder::collect_instances() {
         scene::Instance const& instance = scene_.instances[size_t(open.back())];
         open.pop_back();
         scene::Shape const& shape = scene_.shapes[size_t(instance.shape.index)];
-        if (auto const* mesh = std::get_if<scene::MeshShape>(&shape)) ++mesh_uses_[mesh->filename.resource];
+        if (auto const* mesh = std::get_if<scene::MeshShape>(&shape))
+            ++mesh_uses_[mesh->filename.resource];
         if (auto const* group = std::get_if<scene::Group>(&shape))
             for (scene::InstanceId id : group->instances) open.push_back(id.index);
     }
@@ -77,14 +80,17 @@ void WorldBuilder::collect_instances() {
         add_instance(root, {});
         if (auto const it = area_weights.find(root); it != area_weights.end())
             for (size_t i = first; i < world_.objects_.size(); ++i)
-                if (world_.objects_[i].emission) area_objects_.emplace_back(uint32_t(i), it->second);
+                if (world_.objects_[i].emission)
+                    area_objects_.emplace_back(uint32_t(i), it->second);
     }
 }
 
 void WorldBuilder::add_instance(int32_t index, Inherited const& outer) {
     scene::Instance const& instance = scene_.instances[size_t(index)];
     scene::Shape const& shape = scene_.shapes[size_t(instance.shape.index)];
-    auto pick = [](auto const& from_outer, auto const& own) { return from_outer ? from_outer : own; };
+    auto pick = [](auto const& from_outer, auto const& own) {
+        return from_outer ? from_outer : own;
+    };
     Inherited given;
     given.transform = outer.transform * instance.transform;
     given.material = pick(outer.material, instance.bsdf);
@@ -117,7 +123,8 @@ void WorldBuilder::add_object(scene::Shape const& shape, int32_t instance, Inher
         object.has_interior = shading::is_transmissive(material);
     }
     // A medium without a surface material is bounded by nothing, and nothing does not shine.
-    if (!given.material && !given.emission && object.medium >= 0) object.is_null = object.has_interior = true;
+    if (!given.material && !given.emission && object.medium >= 0)
+        object.is_null = object.has_interior = true;
     if (object.is_null) object.emission = {};
     world_.has_alpha_ |= object.has_alpha;
     world_.has_media_ |= object.is_null || object.medium >= 0;
@@ -151,7 +158,8 @@ int32_t WorldBuilder::medium_of(Inherited const& given) {
         return add_medium({m.absorption, m.scatter, m.phase});
     }
     if (!given.material) return -1;
-    auto const* v = std::get_if<scene::VolumeBoundary>(&scene_.materials[size_t(given.material.index)]);
+    auto const* v =
+        std::get_if<scene::VolumeBoundary>(&scene_.materials[size_t(given.material.index)]);
     if (!v) return -1;
     float const density = given.volume ? scene_.volumes[size_t(given.volume.index)].value : 1;
     // What a scattering event takes away by its colour is absorbed.
@@ -165,7 +173,8 @@ int32_t WorldBuilder::shared_triangles(int32_t mesh, bool smooth) {
     return it->second;
 }
 
-int32_t WorldBuilder::baked_triangles(std::shared_ptr<scene::Mesh const> mesh, bool smooth, Affined const& transform) {
+int32_t WorldBuilder::baked_triangles(std::shared_ptr<scene::Mesh const> mesh, bool smooth,
+                                      Affined const& transform) {
     TriangleData data;
     data.mirrored = transform.determinant() < 0;
     data.positions.reserve(mesh->positions.size() + 1);
@@ -177,7 +186,8 @@ int32_t WorldBuilder::baked_triangles(std::shared_ptr<scene::Mesh const> mesh, b
         // Not to length 1: an instance's normals are interpolated before they are transformed, and
         // both ways are to give the same. The factor keeps them near it.
         double const scale = std::cbrt(std::abs(transform.determinant()));
-        for (Vec3 const& n : mesh->normals) data.normals.push_back(Vec3(inverse.transposed(Vec3d(n)) * scale));
+        for (Vec3 const& n : mesh->normals)
+            data.normals.push_back(Vec3(inverse.transposed(Vec3d(n)) * scale));
     }
     data.source = std::move(mesh);
     world_.triangles_.push_back(std::move(data));
@@ -197,7 +207,8 @@ void WorldBuilder::count() {
         s.memory_bytes += t.source->triangles.size() * 12 + t.source->uvs.size() * sizeof(Vec2);
     }
     for (Object const& o : world_.objects_)
-        if (o.triangles >= 0) s.triangles += world_.triangles_[size_t(o.triangles)].source->triangles.size();
+        if (o.triangles >= 0)
+            s.triangles += world_.triangles_[size_t(o.triangles)].source->triangles.size();
 }
 
 } // namespace weft::world

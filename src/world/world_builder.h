@@ -34,7 +34,8 @@ class WorldBuilder {
     int32_t medium_of(Inherited const& given);
 
     int32_t shared_triangles(int32_t mesh, bool smooth);
-    int32_t baked_triangles(std::shared_ptr<scene::Mesh const> mesh, bool smooth, Affined const& transform);
+    int32_t baked_triangles(std::shared_ptr<scene::Mesh const> mesh, bool smooth,
+                            Affined const& transform);
 
     void build_kernel_scene(CommitOptions const& options);
     RTCGeometry make_mesh(TriangleData const& triangles) const;
@@ -48,11 +49,11 @@ class WorldBuilder {
 
     World& world_;
     scene::Scene const& scene_;
-    std::map<int32_t, int> mesh_uses_;                           ///< objects per mesh
-    std::map<std::pair<int32_t, bool>, int32_t> shared_;         ///< mesh, smooth -> triangles
-    std::map<int32_t, RTCScene> mesh_scenes_;                    ///< triangles -> kernel scene
+    std::map<int32_t, int> mesh_uses_;                   ///< objects per mesh
+    std::map<std::pair<int32_t, bool>, int32_t> shared_; ///< mesh, smooth -> triangles
+    std::map<int32_t, RTCScene> mesh_scenes_;            ///< triangles -> kernel scene
     RTCScene sphere_scene_ = nullptr;
-    std::vector<std::pair<uint32_t, float>> area_objects_;       ///< object, user weight
+    std::vector<std::pair<uint32_t, float>> area_objects_; ///< object, user weight
     std::shared_ptr<scene::Mesh const> rectangle_;
 };
 

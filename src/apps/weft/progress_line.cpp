@@ -27,10 +27,13 @@ std::string count_text(double count) {
 
 void print_progress(ProgressStyle style, session::Progress const& p, bool last) {
     if (style == ProgressStyle::Json) {
-        fmt::print(stderr, "{{\"phase\":\"render\",\"percent\":{:.2f},\"samplesPerSecond\":{:.0f},\"seconds\":{:.2f},\"secondsLeft\":{:.2f}}}\n",
+        fmt::print(stderr,
+                   "{{\"phase\":\"render\",\"percent\":{:.2f},\"samplesPerSecond\":{:.0f},"
+                   "\"seconds\":{:.2f},\"secondsLeft\":{:.2f}}}\n",
                    100 * p.fraction, p.samples_per_second, p.seconds, p.seconds_left);
     } else if (style == ProgressStyle::Terminal) {
-        fmt::print(stderr, "\r{:5.1f} %   {} samples/s   {} left   ", 100 * p.fraction, count_text(p.samples_per_second), duration_text(p.seconds_left));
+        fmt::print(stderr, "\r{:5.1f} %   {} samples/s   {} left   ", 100 * p.fraction,
+                   count_text(p.samples_per_second), duration_text(p.seconds_left));
         if (last) fmt::print(stderr, "\n");
     }
     std::fflush(stderr);

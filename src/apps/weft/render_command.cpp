@@ -40,14 +40,21 @@ film::Region parse_crop(std::string const& text) {
 }
 
 /// Where a job's pictures go: what the user asked for, or NAME.exr beside the scene.
-std::vector<std::string> output_paths(RenderArguments const& a, io::RenderJob const& job, bool only_job) {
-    std::string const stem = job.image_name.empty() ? fs::path(a.scene).stem().string() : job.image_name;
+std::vector<std::string> output_paths(RenderArguments const& a, io::RenderJob const& job,
+                                      bool only_job) {
+    std::string const stem =
+        job.image_name.empty() ? fs::path(a.scene).stem().string() : job.image_name;
     if (a.outputs.empty()) return {(fs::path(job.folder) / (stem + ".exr")).string()};
     std::vector<std::string> paths;
     for (std::string const& output : a.outputs) {
-        if (fs::is_directory(output)) paths.push_back((fs::path(output) / (stem + ".exr")).string());
-        else if (only_job) paths.push_back(output);
-        else throw InputError("-o expects an existing folder, since the scene renders several pictures; found '" + output + "'");
+        if (fs::is_directory(output))
+            paths.push_back((fs::path(output) / (stem + ".exr")).string());
+        else if (only_job)
+            paths.push_back(output);
+        else
+            throw InputError(
+                "-o expects an existing folder, since the scene renders several pictures; found '" +
+                output + "'");
     }
     return paths;
 }
@@ -62,9 +69,11 @@ image::Metadata metadata(RenderArguments const& a, session::RenderResult const& 
 
 void report_bad_samples(session::RenderResult const& r, uint32_t seed) {
     if (r.bad_samples == 0) return;
-    fmt::print(stderr, "warning: {} samples were not finite and count as black; the first:\n", r.bad_samples);
+    fmt::print(stderr, "warning: {} samples were not finite and count as black; the first:\n",
+               r.bad_samples);
     for (auto const& b : r.first_bad_samples)
-        fmt::print(stderr, "  pixel {},{} sample {} seed {}: {} {} {}\n", b.pixel.x, b.pixel.y, b.sample, seed, b.value.r, b.value.g, b.value.b);
+        fmt::print(stderr, "  pixel {},{} sample {} seed {}: {} {} {}\n", b.pixel.x, b.pixel.y,
+                   b.sample, seed, b.value.r, b.value.g, b.value.b);
 }
 
 int render_job(RenderArguments& a, io::RenderJob const& job, bool only_job) {
@@ -74,7 +83,9 @@ int render_job(RenderArguments& a, io::RenderJob const& job, bool only_job) {
     for (std::string const& lint : lint_warnings(*world)) fmt::print(stderr, "warning: {}\n", lint);
 
     ProgressStyle const style = progress_style(a.progress);
-    a.options.on_progress = [&](session::Progress const& p) { print_progress(style, p, p.fraction >= 1); };
+    a.options.on_progress = [&](session::Progress const& p) {
+        print_progress(style, p, p.fraction >= 1);
+    };
     if (!a.crop.empty()) a.options.crop = parse_crop(a.crop);
     session::RenderResult const result = session::render(*world, job, a.options);
     if (result.cancelled && style == ProgressStyle::Terminal) fmt::print(stderr, "\n");
@@ -83,11 +94,13 @@ int render_job(RenderArguments& a, io::RenderJob const& job, bool only_job) {
         image::write_image(path, result.image, metadata(a, result));
         fmt::print("{}\n", path);
     }
-    fmt::print(stderr, "{} x {} pixels, {} samples each: {}, {} samples/s\n", result.region.width(), result.region.height(), result.samples,
-               duration_text(result.seconds), count_text(result.pixel_samples / std::max(result.seconds, 1e-9)));
+    fmt::print(stderr, "{} x {} pixels, {} samples each: {}, {} samples/s\n", result.region.width(),
+               result.region.height(), result.samples, duration_text(result.seconds),
+               count_text(result.pixel_samples / std::max(result.seconds, 1e-9)));
     if (!result.cancelled) return kDone;
     fmt::print(stderr, "stopped after {:.1f} % of the samples; what is done is written\n",
-               100 * result.pixel_samples / (double(result.region.width()) * result.region.height() * result.samples));
+               100 * result.pixel_samples /
+                   (double(result.region.width()) * result.region.height() * result.samples));
     return kInterrupted;
 }
 
@@ -108,17 +121,31 @@ void add_render_command(CLI::App& app, Command& chosen) {
     auto a = std::make_shared<RenderArguments>();
     CLI::App* c = app.add_subcommand("render", "Render a scene file");
     c->add_option("scene", a->scene, "The scene file")->required()->type_name("SCENE");
-    c->add_option("-o,--output", a->outputs, "Picture to write: .exr, .hdr, .png, .jpg, .tif, or a folder; may be given several times")
-        ->type_name("OUT")->take_all();
-    c->add_option("--spp", a->options.spp, "Samples per pixel, instead of the scene's")->check(CLI::Range(1, 1 << 24));
-    c->add_option("--size", a->size, "Size of the picture: WxH in pixels, or P% of the scene's")->type_name("WxH|P%");
-    c->add_option("--crop", a->crop, "Render only this region of the picture, in pixels")->type_name("x0,y0,x1,y1");
-    c->add_option("--threads", a->options.threads, "Number of threads; 0 is one per processor")->check(CLI::Range(0, 1024));
+    c->add_option(
+         "-o,--output", a->outputs,
+         "Picture to write: .exr, .hdr, .png, .jpg, .tif, or a folder; may be given several times")
+        ->type_name("OUT")
+        ->take_all();
+    c->add_option("--spp", a->options.spp, "Samples per pixel, instead of the scene's")
+        ->check(CLI::Range(1, 1 << 24));
+    c->add_option("--size", a->size, "Size of the picture: WxH in pixels, or P% of the scene's")
+        ->type_name("WxH|P%");
+    c->add_option("--crop", a->crop, "Render only this region of the picture, in pixels")
+        ->type_name("x0,y0,x1,y1");
+    c->add_option("--threads", a->options.threads, "Number of threads; 0 is one per processor")
+        ->check(CLI::Range(0, 1024));
     c->add_option("--seed", a->options.seed, "Another seed gives other noise");
-    c->add_option("--tile", a->options.tile_size, "Size of a tile in pixels; changes no pixel")->check(CLI::Range(1, 4096));
-    c->add_option("--progress", a->progress, "How to tell how far it is")->check(CLI::IsMember({"auto", "json", "none"}));
-    c->add_option("--set", a->overrides, "Set a parameter of the scene, for example --set camera.fov=30")->type_name("PATH.PARAM=VALUE")->take_all();
-    c->add_option("--isa", a->isa, "Pin the ray kernel's instruction set, so that different machines give the same bits")
+    c->add_option("--tile", a->options.tile_size, "Size of a tile in pixels; changes no pixel")
+        ->check(CLI::Range(1, 4096));
+    c->add_option("--progress", a->progress, "How to tell how far it is")
+        ->check(CLI::IsMember({"auto", "json", "none"}));
+    c->add_option("--set", a->overrides,
+                  "Set a parameter of the scene, for example --set camera.fov=30")
+        ->type_name("PATH.PARAM=VALUE")
+        ->take_all();
+    c->add_option(
+         "--isa", a->isa,
+         "Pin the ray kernel's instruction set, so that different machines give the same bits")
         ->check(CLI::IsMember({"sse2", "sse4.2", "avx", "avx2", "avx512"}));
     c->callback([a, &chosen] { chosen = [a] { return run(*a); }; });
 }

@@ -9,20 +9,25 @@ namespace weft::apps {
 
 Vec2i parse_size(std::string const& text, scene::Scene const& scene) {
     if (text.empty()) return {0, 0};
-    auto const fail = [&] { return InputError("--size expects WxH in pixels or P%, found '" + text + "'"); };
+    auto const fail = [&] {
+        return InputError("--size expects WxH in pixels or P%, found '" + text + "'");
+    };
     auto in_range = [](double v) { return v >= 1 && v <= 65536; };
     if (text.back() == '%') {
         auto const p = schema::read_components(text.substr(0, text.size() - 1), 1);
         if (!p || !(p->front() > 0)) throw fail();
-        auto const& view = match(scene.cameras[size_t(scene.contents.camera.index)], [](auto const& c) -> auto& { return c.view; });
-        double const w = std::round(view.width * p->front() / 100), h = std::round(view.height * p->front() / 100);
+        auto const& view = match(
+            scene.cameras[size_t(scene.contents.camera.index)],
+            [](auto const& c) -> auto& { return c.view; });
+        double const w = std::round(view.width * p->front() / 100),
+                     h = std::round(view.height * p->front() / 100);
         if (!in_range(w) || !in_range(h)) throw fail();
         return {int(w), int(h)};
     }
     size_t const x = text.find('x');
     int w = 0, h = 0;
-    if (x == std::string::npos || !schema::TextForm<int>::read(text.substr(0, x), w) || !schema::TextForm<int>::read(text.substr(x + 1), h) ||
-        !in_range(w) || !in_range(h))
+    if (x == std::string::npos || !schema::TextForm<int>::read(text.substr(0, x), w) ||
+        !schema::TextForm<int>::read(text.substr(x + 1), h) || !in_range(w) || !in_range(h))
         throw fail();
     return {w, h};
 }
@@ -36,11 +41,13 @@ std::vector<std::string> lint_warnings(world::World const& world) {
         std::string const where = to_string(scene.instance_locations[size_t(o.source_instance)]);
         emits |= bool(o.emission);
         if (o.emission && o.light < 0)
-            warnings.push_back(where + ": emits light but is no <light type=\"area\">: only rays that hit it by chance find it, which is noisy");
+            warnings.push_back(where + ": emits light but is no <light type=\"area\">: only rays "
+                                       "that hit it by chance find it, which is noisy");
         if (!o.material && !o.emission && !o.is_null && emits)
             warnings.push_back(where + ": has no <bsdf> and will be black");
     }
-    if (!emits) warnings.push_back("the scene has no light: the picture will be black; add a <light>");
+    if (!emits)
+        warnings.push_back("the scene has no light: the picture will be black; add a <light>");
     return warnings;
 }
 

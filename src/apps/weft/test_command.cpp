@@ -17,16 +17,21 @@ namespace {
 
 /// Renders one test and prints its verdict; whether it passed.
 bool run_test(io::RenderJob const& job, session::RenderOptions const& options) {
-    auto const path = [&](char const* suffix) { return (fs::path(job.folder) / (job.image_name + suffix)).string(); };
+    auto const path = [&](char const* suffix) {
+        return (fs::path(job.folder) / (job.image_name + suffix)).string();
+    };
     image::check_writable(path("_test.exr"));
     image::Image const reference = image::read_image(path("_ref.exr"));
     auto const world = world::World::commit(job.scene);
     session::RenderResult const result = session::render(*world, job, options);
     image::write_exr(path("_test.exr"), result.image);
     image::Difference const d = image::compare(result.image, reference);
-    bool const passed = d.mae <= double(job.test->mae) && std::abs(d.me) <= double(job.test->me) && d.non_finite == 0;
-    fmt::print("{}  {:<32} MAE {:.3e} (<= {:.1e})  ME {:+.3e} (<= {:.1e}){}  {:.1f} s\n", passed ? "pass" : "FAIL", job.image_name, d.mae,
-               job.test->mae, d.me, job.test->me, d.non_finite ? fmt::format("  {} values not finite", d.non_finite) : "", result.seconds);
+    bool const passed = d.mae <= double(job.test->mae) && std::abs(d.me) <= double(job.test->me) &&
+                        d.non_finite == 0;
+    fmt::print("{}  {:<32} MAE {:.3e} (<= {:.1e})  ME {:+.3e} (<= {:.1e}){}  {:.1f} s\n",
+               passed ? "pass" : "FAIL", job.image_name, d.mae, job.test->mae, d.me, job.test->me,
+               d.non_finite ? fmt::format("  {} values not finite", d.non_finite) : "",
+               result.seconds);
     std::fflush(stdout);
     return passed;
 }
@@ -42,7 +47,8 @@ int run(std::vector<std::string> const& files, session::RenderOptions const& opt
                     ++tests;
                     ++(run_test(job, options) ? passed : failed);
                 }
-            if (tests == 0) throw InputError(SourceLocation{name, 0, 0}, "expected a <test>, found none");
+            if (tests == 0)
+                throw InputError(SourceLocation{name, 0, 0}, "expected a <test>, found none");
         } catch (InputError const& e) {
             fmt::print(stderr, "error: {}\n", e.what());
             ++broken;
@@ -60,9 +66,11 @@ void add_test_command(CLI::App& app, Command& chosen) {
         session::RenderOptions options;
     };
     auto a = std::make_shared<Arguments>();
-    CLI::App* c = app.add_subcommand("test", "Run the <test>s of scene files against their reference images");
+    CLI::App* c =
+        app.add_subcommand("test", "Run the <test>s of scene files against their reference images");
     c->add_option("files", a->files, "Scene files")->required()->type_name("FILE...");
-    c->add_option("--threads", a->options.threads, "Number of threads; 0 is one per processor")->check(CLI::Range(0, 1024));
+    c->add_option("--threads", a->options.threads, "Number of threads; 0 is one per processor")
+        ->check(CLI::Range(0, 1024));
     c->add_option("--seed", a->options.seed, "Another seed gives other noise");
     c->callback([a, &chosen] { chosen = [a] { return run(a->files, a->options); }; });
 }
