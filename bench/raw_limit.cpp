@@ -18,9 +18,18 @@ Cost now() {
 /// One ray; returns something that depends on the answer.
 uint32_t trace(RTCScene scene, world::RecordedRay const& recorded) {
     world::Ray const& r = recorded.ray;
-    RTCRay const ray{
-        r.origin.x, r.origin.y, r.origin.z, 0, r.direction.x, r.direction.y, r.direction.z, r.time,
-        r.t_max,    ~0u,        0,          0};
+    RTCRay const ray{r.origin.x,
+                     r.origin.y,
+                     r.origin.z,
+                     r.t_min,
+                     r.direction.x,
+                     r.direction.y,
+                     r.direction.z,
+                     r.time,
+                     r.t_max,
+                     ~0u,
+                     0,
+                     0};
     world::QueryContext context;
     world::init_context(&context);
     if (recorded.shadow) {
