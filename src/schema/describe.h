@@ -52,7 +52,7 @@ constexpr bool initialisable_with(std::index_sequence<I...>) {
     return requires { T{(void(I), AnyMember{})...}; };
 }
 
-template <class T, size_t N = 24>
+template <class T, size_t N = 40>
 constexpr size_t member_count() {
     if constexpr (N == 0 || initialisable_with<T>(std::make_index_sequence<N>{})) {
         return N;

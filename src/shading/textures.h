@@ -1,7 +1,5 @@
 // Textures as the render reads them: constants are already folded into their inputs, images are
-// float pixels with their lookups.
-//
-// Left out until textures are cached: filtering by ray footprints.
+// lookups (image_lookup.h).
 #pragma once
 
 #include <memory>
@@ -9,20 +7,10 @@
 #include <vector>
 
 #include "base/match.h"
-#include "image/image.h"
 #include "scene/texture.h"
+#include "shading/image_lookup.h"
 
 namespace weft::shading {
-
-/// An image over the unit square; v runs upwards, so that v = 1 is the top row.
-struct ImageLookup {
-    std::shared_ptr<image::Image const> image;
-    float exposure = 1;
-    bool clamp = false;
-    bool nearest = false;
-
-    Color at(Vec2 uv) const;
-};
 
 struct CheckerboardLookup {
     Color color0, color1;
