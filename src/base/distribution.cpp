@@ -1,5 +1,6 @@
 #include "base/distribution.h"
 
+#include <bit>
 #include <cassert>
 
 namespace weft {
@@ -17,13 +18,25 @@ Distribution1D::Distribution1D(std::span<float const> weights) : cdf_(weights.si
     // The last bins may have weight 0: everything that rounding left at the top is exactly 1.
     float const top = cdf_.back();
     for (size_t i = cdf_.size(); i-- > 0 && cdf_[i] == top;) cdf_[i] = 1;
+
+    constexpr size_t bins_per_part = 4;
+    size_t const parts = std::bit_floor(std::max(weights.size() / bins_per_part, size_t(1)));
+    guide_.resize(parts + 1);
+    uint32_t bin = 0;
+    for (size_t i = 0; i <= parts; ++i) {
+        float const u = float(i) / float(parts); // exact, as is u * parts in `find`
+        while (bin + 1 < size() && cdf_[bin + 1] <= u) ++bin;
+        guide_[i] = bin;
+    }
 }
 
 uint32_t Distribution1D::find(float u) const {
     // The last bin whose start is <= u and whose width is not 0.
-    auto const it = std::upper_bound(cdf_.begin(), cdf_.end(), u);
-    auto const i = std::clamp<ptrdiff_t>(it - cdf_.begin() - 1, 0, ptrdiff_t(size()) - 1);
-    return uint32_t(i);
+    size_t const parts = guide_.size() - 1;
+    size_t const part = std::min(size_t(std::max(u, 0.f) * float(parts)), parts - 1);
+    auto const first = cdf_.begin() + guide_[part], last = cdf_.begin() + guide_[part + 1] + 1;
+    auto const it = std::upper_bound(first + 1, last, u);
+    return std::min(uint32_t(it - cdf_.begin()) - 1, size() - 1);
 }
 
 Distribution1D::Sample Distribution1D::sample(float u) const {

@@ -36,6 +36,9 @@ class Distribution1D {
     uint32_t find(float u) const;
 
     std::vector<float> cdf_; ///< n + 1 values from 0 to 1
+    /// Where the search for u begins (Chen and Asau 1974): for a power of two of equal parts of
+    /// [0, 1], the bin at the beginning of each, and at the end of the last.
+    std::vector<uint32_t> guide_;
     float total_ = 0;
 };
 

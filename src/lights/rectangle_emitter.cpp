@@ -22,30 +22,42 @@ struct Complex {
     double re, im;
 };
 
+/// In [-pi, pi]. The parts may be too large for floats where their quotient is not.
+float argument(Complex const& c) {
+    float const angle = std::atan(float(c.im / c.re));
+    return c.re < 0 ? angle + (c.im < 0 ? -kPi : kPi) : angle;
+}
+
+/// Four at once: as many as one instruction takes.
+std::array<double, 4> roots(std::array<double, 4> const& a) {
+    std::array<double, 4> r;
+    for (size_t i = 0; i < 4; ++i) r[i] = std::sqrt(a[i]);
+    return r;
+}
+
 } // namespace
 
 struct RectangleEmitter::View {
     double x0, x1, y0, y1, z;
-    double l;          ///< sqrt((y0^2 + z^2) (y1^2 + z^2))
-    Complex start;     ///< exp(i G(x0))
+    Complex start;     ///< exp(i G(x0)) times a length, x0^2 + z^2 times l
     float solid_angle; ///< G(x1) - G(x0)
 
-    Complex swept(double x) const {
-        double const d2 = x * x + z * z;
-        double const r0 = std::sqrt(d2 + y0 * y0), r1 = std::sqrt(d2 + y1 * y1);
-        double const s = 1 / (d2 * l);
-        return {(z * z * r0 * r1 + x * x * y0 * y1) * s, x * z * (y1 * r0 - y0 * r1) * s};
+    /// The square of l = sqrt((y0^2 + z^2) (y1^2 + z^2)).
+    double l2() const { return (y0 * y0 + z * z) * (y1 * y1 + z * z); }
+    /// exp(i G(x)) times (x^2 + z^2) l; r0 and r1 are the distances to (x, y0) and (x, y1).
+    Complex swept(double x, double r0, double r1) const {
+        return {z * z * (r0 * r1) + x * x * (y0 * y1), x * z * (y1 * r0 - y0 * r1)};
     }
 
     /// Where G has grown by the share u of the solid angle.
     double abscissa(float u) const {
         float const angle = u * solid_angle;
-        double const c = std::cos(angle), s = std::sin(angle);
+        double const c = std::cos(angle), s = std::sin(angle), zz = z * z, yy = y0 * y1;
+        double const q = 1 / std::sqrt(l2());
         // The float pair has a good angle but a length only near 1: one Newton step.
-        double const k = 1.5 - 0.5 * (c * c + s * s);
+        double const k = (1.5 - 0.5 * (c * c + s * s)) * q / (x0 * x0 + zz);
         double const cos_phi = (start.re * c - start.im * s) * k;
         double const sin_phi = (start.im * c + start.re * s) * k;
-        double const q = 1 / l, zz = z * z, yy = y0 * y1;
         double const cos_delta = (zz + yy) * q, sin_delta = z * (y1 - y0) * q;
         double const outer = cos_phi + (zz - yy) * q;
         // cos phi - cos delta = (sin^2 delta - sin^2 phi) / (cos phi + cos delta)
@@ -61,11 +73,12 @@ struct RectangleEmitter::View {
     double ordinate(double x, float u) const {
         double const d2 = x * x + z * z;
         double const r0 = d2 + y0 * y0, r1 = d2 + y1 * y1; // squared
+        auto const root = roots({r0, r1, d2, 0});
         // Numerators over the common denominator sqrt(r0 r1).
-        double const h0 = y0 * std::sqrt(r1), h1 = y1 * std::sqrt(r0);
+        double const h0 = y0 * root[1], h1 = y1 * root[0];
         double const h = h0 + double(u) * (h1 - h0), rest = r0 * r1 - h * h;
         if (!(rest > 0)) return h > 0 ? y1 : y0;
-        return std::clamp(h * std::sqrt(d2 / rest), y0, y1);
+        return std::clamp(h * root[2] / std::sqrt(rest), y0, y1);
     }
 };
 
@@ -96,10 +109,12 @@ RectangleEmitter::View RectangleEmitter::view(Vec3d const& to_corner) const {
     v.z = std::abs(dot(to_corner, normal_));
     v.x1 = v.x0 + length_x_;
     v.y1 = v.y0 + length_y_;
-    v.l = std::sqrt((v.y0 * v.y0 + v.z * v.z) * (v.y1 * v.y1 + v.z * v.z));
-    v.start = v.swept(v.x0);
-    Complex const a = v.start, b = v.swept(v.x1);
-    v.solid_angle = std::atan2(float(b.im * a.re - b.re * a.im), float(b.re * a.re + b.im * a.im));
+    double const z2 = v.z * v.z, dx0 = v.x0 * v.x0 + z2, dx1 = v.x1 * v.x1 + z2, yy0 = v.y0 * v.y0,
+                 yy1 = v.y1 * v.y1;
+    auto const r = roots({dx0 + yy0, dx0 + yy1, dx1 + yy0, dx1 + yy1});
+    v.start = v.swept(v.x0, r[0], r[1]);
+    Complex const a = v.start, b = v.swept(v.x1, r[2], r[3]);
+    v.solid_angle = argument({b.re * a.re + b.im * a.im, b.im * a.re - b.re * a.im});
     // Where either part is over pi / 2 so is the whole, which may exceed pi and have wrapped.
     bool const wide = v.x0 < 0 && v.x1 > 0 && (a.re < 0 || b.re < 0);
     if (wide && v.solid_angle < kPi / 2) v.solid_angle += 2 * kPi;

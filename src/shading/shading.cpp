@@ -90,7 +90,7 @@ Frame shading_frame(SurfacePoint const& point, Vec3 const& wo, Vec3 const& ng_fa
     constexpr float least_cosine = 1e-3f;
     if (float const cosine = dot(n, wo); cosine < least_cosine)
         n = normalize(n + wo * (least_cosine - cosine));
-    return Frame(n, point.dpdu);
+    return point.dpdu == Vec3(0) ? Frame(n) : Frame(n, point.dpdu);
 }
 
 float add_lobes(scene::Material const& material, Textures const& textures,

@@ -41,11 +41,10 @@ std::vector<float> environment_cells(shading::Textures const& textures,
 lights::MeshEmitter::Triangle front_first(TriangleData const& data,
                                           scene::Mesh::Triangle const& t) {
     auto const& [a, b, c] = t.v;
-    if (data.normals.empty()) return {a, b, c};
-    Vec3 const normal =
-        cross(data.positions[b] - data.positions[a], data.positions[c] - data.positions[a]);
-    bool const agrees =
-        (dot(normal, data.normals[a] + data.normals[b] + data.normals[c]) < 0) == data.mirrored;
+    if (!data.smooth) return {a, b, c};
+    Vertex const &va = data.vertices[a], &vb = data.vertices[b], &vc = data.vertices[c];
+    Vec3 const normal = cross(vb.p - va.p, vc.p - va.p);
+    bool const agrees = (dot(normal, va.n + vb.n + vc.n) < 0) == data.mirrored;
     return agrees ? lights::MeshEmitter::Triangle{a, b, c} : lights::MeshEmitter::Triangle{a, c, b};
 }
 
@@ -69,16 +68,17 @@ void WorldBuilder::add_area_lights(std::vector<Light>& lights, std::vector<float
             if (object.kind == ObjectKind::Sphere) return lights::SphereEmitter(object.to_world);
             TriangleData const& data = world_.triangles_[size_t(object.triangles)];
             if (data.source == rectangle_) return lights::RectangleEmitter(object.to_world);
-            std::vector<Vec3> positions(data.positions.begin(), data.positions.end() - 1);
-            if (object.instanced)
-                for (Vec3& p : positions) p = object.to_world.point(p);
+            std::vector<Vec3> positions;
+            for (Vertex const& v : data.vertices)
+                positions.push_back(object.instanced ? object.to_world.point(v.p) : v.p);
             std::vector<lights::MeshEmitter::Triangle> triangles;
             for (auto const& t : data.source->triangles) triangles.push_back(front_first(data, t));
             return lights::MeshEmitter(std::move(positions), std::move(triangles), data.source->uvs,
                                        object.to_world.determinant() < 0);
         };
-        AreaLight light{make(), object.emission, object.alpha};
+        AreaLight light{make(), object.emission, object.alpha, 0};
         float const area = match(light.emitter, [](auto const& e) { return e.area(); });
+        light.extent = std::sqrt(area);
         object.light = int32_t(lights.size());
         weights.push_back(weight * kPi * area *
                           mean_luminance(world_.textures_, emission.emission));

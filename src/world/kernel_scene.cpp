@@ -83,8 +83,8 @@ RTCGeometry WorldBuilder::make_mesh(TriangleData const& triangles) const {
     RTCGeometry const geometry = rtcNewGeometry(world_.device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto const& indices = triangles.source->triangles;
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                               triangles.positions.data(), 0, sizeof(Vec3),
-                               triangles.positions.size() - 1);
+                               triangles.vertices.data(), offsetof(Vertex, p), sizeof(Vertex),
+                               triangles.vertices.size());
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, indices.data(),
                                0, sizeof(scene::Mesh::Triangle), indices.size());
     return geometry;

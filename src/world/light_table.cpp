@@ -51,8 +51,7 @@ LightSample LightTable::sample_light(AreaLight const& l, Vec3 const& ref, Vec2 u
                       textures_->at(l.alpha, s.uv);
     sample.pdf = s.pdf;
     // As far off the light as a ray that leaves it would start.
-    Vec3 const extent =
-        abs(s.p) + Vec3(std::sqrt(match(l.emitter, [](auto const& e) { return e.area(); })));
+    Vec3 const extent = abs(s.p) + Vec3(l.extent);
     // Along a flat ray that is further.
     sample.p_error = kRounding * dot(abs(s.n), extent) / std::max(-dot(s.n, s.wi), 1e-4f);
     return sample;

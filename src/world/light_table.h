@@ -21,6 +21,7 @@ struct AreaLight {
     lights::Emitter emitter;
     scene::EmissionId emission;
     scene::Input<float> alpha{1}; ///< rays that look for it miss it where it is not there
+    float extent = 0;             ///< about its size: the root of its area
 };
 
 struct EnvironmentLight {

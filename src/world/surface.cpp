@@ -15,6 +15,11 @@ Vec3 absolute_vector(Affine const& m, Vec3 const& v) {
     return abs(m.x) * v.x + abs(m.y) * v.y + abs(m.z) * v.z;
 }
 
+Vec2 uv_at(Vertex const& a, Vertex const& b, Vertex const& c, Hit const& hit) {
+    float const w = 1 - hit.u - hit.v;
+    return {a.u * w + b.u * hit.u + c.u * hit.v, a.v * w + b.v * hit.u + c.v * hit.v};
+}
+
 } // namespace
 
 shading::SurfacePoint World::surface(Ray const& ray, Hit const& hit) const {
@@ -32,33 +37,32 @@ shading::SurfacePoint World::surface(Ray const& ray, Hit const& hit) const {
 }
 
 Vec2 World::mesh_uv(Object const& object, Hit const& hit) const {
-    scene::Mesh const& mesh = *triangles_[size_t(object.triangles)].source;
-    if (mesh.uvs.empty()) return {hit.u, hit.v};
-    auto const& v = mesh.triangles[hit.primitive].v;
-    return mesh.uvs[v[0]] * (1 - hit.u - hit.v) + mesh.uvs[v[1]] * hit.u + mesh.uvs[v[2]] * hit.v;
+    TriangleData const& data = triangles_[size_t(object.triangles)];
+    if (!data.has_uvs) return {hit.u, hit.v};
+    auto const& v = data.source->triangles[hit.primitive].v;
+    return uv_at(data.vertices[v[0]], data.vertices[v[1]], data.vertices[v[2]], hit);
 }
 
 void World::mesh_point(Object const& object, Hit const& hit, shading::SurfacePoint& point) const {
     TriangleData const& data = triangles_[size_t(object.triangles)];
     auto const& v = data.source->triangles[hit.primitive].v;
-    Vec3 const &a = data.positions[v[0]], &b = data.positions[v[1]], &c = data.positions[v[2]];
-    Vec3 const e1 = b - a, e2 = c - a;
+    Vertex const &a = data.vertices[v[0]], &b = data.vertices[v[1]], &c = data.vertices[v[2]];
+    Vec3 const e1 = b.p - a.p, e2 = c.p - a.p;
     float const w = 1 - hit.u - hit.v;
-    point.p = a * w + b * hit.u + c * hit.v;
-    point.p_error = max_abs(max_abs(a, b), c);
+    point.p = a.p * w + b.p * hit.u + c.p * hit.v;
+    point.p_error = max_abs(max_abs(a.p, b.p), c.p);
     Vec3 normal = cross(e1, e2);
     if (data.mirrored) normal = -normal;
-    if (!data.normals.empty())
-        point.ns = data.normals[v[0]] * w + data.normals[v[1]] * hit.u + data.normals[v[2]] * hit.v;
-    point.uv = mesh_uv(object, hit);
-    if (auto const& uvs = data.source->uvs; !uvs.empty()) {
-        Vec2 const d1 = uvs[v[1]] - uvs[v[0]], d2 = uvs[v[2]] - uvs[v[0]];
+    if (data.smooth) point.ns = a.n * w + b.n * hit.u + c.n * hit.v;
+    point.uv = data.has_uvs ? uv_at(a, b, c, hit) : Vec2(hit.u, hit.v);
+    if (object.has_tangents && data.has_uvs) {
+        Vec2 const d1(b.u - a.u, b.v - a.v), d2(c.u - a.u, c.v - a.v);
         float const determinant = d1.x * d2.y - d1.y * d2.x;
         if (determinant != 0) point.dpdu = (e1 * d2.y - e2 * d1.y) * (1 / determinant);
     }
     if (object.instanced) {
         normal = object.to_object.transposed(normal);
-        if (!data.normals.empty()) point.ns = object.to_object.transposed(point.ns);
+        if (data.smooth) point.ns = object.to_object.transposed(point.ns);
         point.dpdu = object.to_world.vector(point.dpdu);
         point.p = object.to_world.point(point.p);
         point.p_error =
@@ -66,7 +70,7 @@ void World::mesh_point(Object const& object, Hit const& hit, shading::SurfacePoi
     }
     point.p_error *= kRounding;
     point.ng = normalize(normal);
-    if (data.normals.empty()) {
+    if (!data.smooth) {
         point.ns = point.ng;
     } else {
         point.ns = normalize(point.ns);
@@ -82,7 +86,7 @@ void World::sphere_point(Object const& object, Ray const& ray, Hit const& hit,
     point.p = object.to_world.point(local);
     point.ng = point.ns = normalize(object.to_object.transposed(local));
     point.uv = lights::direction_to_uv(local);
-    point.dpdu = object.to_world.vector(Vec3(local.z, 0, -local.x));
+    if (object.has_tangents) point.dpdu = object.to_world.vector(Vec3(local.z, 0, -local.x));
     point.p_error =
         (absolute_vector(object.to_world, Vec3(1)) + abs(object.to_world.origin)) * kRounding;
 }

@@ -23,12 +23,21 @@
 
 namespace weft::world {
 
+/// Half a cache line: a hit reads three of these from anywhere in memory.
+struct alignas(32) Vertex {
+    Vec3 p{0, 0, 0};
+    float u = 0;
+    Vec3 n{0, 0, 0}; ///< of any length, to be interpolated
+    float v = 0;
+};
+
 /// A triangle mesh as the render reads it, in the space of its object.
 struct TriangleData {
-    std::vector<Vec3> positions;               ///< one more than there are, for the kernel's loads
-    std::vector<Vec3> normals;                 ///< of any length, to be interpolated; empty: flat
-    std::shared_ptr<scene::Mesh const> source; ///< indices and uvs
-    bool mirrored = false;                     ///< counter-clockwise is the back
+    std::vector<Vertex> vertices;
+    std::shared_ptr<scene::Mesh const> source; ///< indices
+    bool smooth = false;                       ///< has normals
+    bool has_uvs = false;
+    bool mirrored = false; ///< counter-clockwise is the back
 };
 
 enum class ObjectKind : uint8_t { Mesh, Sphere };
@@ -37,7 +46,8 @@ struct Object {
     ObjectKind kind = ObjectKind::Mesh;
     bool instanced = false; ///< hits are in the object's own space
     bool has_alpha = false;
-    int32_t triangles = -1; ///< index of the TriangleData
+    bool has_tangents = false; ///< something looks at the direction of growing u
+    int32_t triangles = -1;    ///< index of the TriangleData
     scene::MaterialId material;
     scene::EmissionId emission;
     scene::TextureId normal_map;

@@ -113,6 +113,7 @@ void WorldBuilder::add_object(scene::Shape const& shape, int32_t instance, Inher
     object.emission = given.emission;
     object.normal_map = given.normal_map;
     object.alpha = given.alpha;
+    object.has_tangents = bool(given.normal_map);
     object.has_alpha = given.alpha != scene::Input<float>{1};
     object.priority = given.priority;
     object.source_instance = instance;
@@ -177,17 +178,22 @@ int32_t WorldBuilder::baked_triangles(std::shared_ptr<scene::Mesh const> mesh, b
                                       Affined const& transform) {
     TriangleData data;
     data.mirrored = transform.determinant() < 0;
-    data.positions.reserve(mesh->positions.size() + 1);
-    for (Vec3 const& p : mesh->positions) data.positions.push_back(Vec3(transform.point(Vec3d(p))));
-    data.positions.emplace_back(0.f);
-    if (smooth && !mesh->normals.empty()) {
+    data.smooth = smooth && !mesh->normals.empty();
+    data.has_uvs = !mesh->uvs.empty();
+    data.vertices.resize(mesh->positions.size());
+    for (size_t i = 0; i < data.vertices.size(); ++i) {
+        data.vertices[i].p = Vec3(transform.point(Vec3d(mesh->positions[i])));
+        if (!data.has_uvs) continue;
+        data.vertices[i].u = mesh->uvs[i].x;
+        data.vertices[i].v = mesh->uvs[i].y;
+    }
+    if (data.smooth) {
         Affined const inverse = transform.inverse();
-        data.normals.reserve(mesh->normals.size());
         // Not to length 1: an instance's normals are interpolated before they are transformed, and
         // both ways are to give the same. The factor keeps them near it.
         double const scale = std::cbrt(std::abs(transform.determinant()));
-        for (Vec3 const& n : mesh->normals)
-            data.normals.push_back(Vec3(inverse.transposed(Vec3d(n)) * scale));
+        for (size_t i = 0; i < data.vertices.size(); ++i)
+            data.vertices[i].n = Vec3(inverse.transposed(Vec3d(mesh->normals[i])) * scale);
     }
     data.source = std::move(mesh);
     world_.triangles_.push_back(std::move(data));
@@ -203,8 +209,7 @@ void WorldBuilder::count() {
     for (auto const* image : images) s.memory_bytes += image->pixels.size() * sizeof(float);
     for (TriangleData const& t : world_.triangles_) {
         s.unique_triangles += t.source->triangles.size();
-        s.memory_bytes += (t.positions.size() + t.normals.size()) * sizeof(Vec3);
-        s.memory_bytes += t.source->triangles.size() * 12 + t.source->uvs.size() * sizeof(Vec2);
+        s.memory_bytes += t.vertices.size() * sizeof(Vertex) + t.source->triangles.size() * 12;
     }
     for (Object const& o : world_.objects_)
         if (o.triangles >= 0)
