@@ -35,12 +35,12 @@ std::unique_ptr<World const> World::commit(std::shared_ptr<scene::Scene const> s
 }
 
 void WorldBuilder::build(CommitOptions const& options) {
-    world_.textures_ = shading::Textures(scene_.textures, scene_.images);
     auto const& camera = scene_.cameras[size_t(scene_.contents.camera.index)];
     world_.camera_ = CameraRays(camera, scene_.images);
     if (options.size.x > 0) world_.camera_.resize(options.size);
     rectangle_ = make_rectangle();
     collect_instances();
+    compile_networks();
     build_kernel_scene(options);
     build_lights();
     media::Interior space;
@@ -142,8 +142,30 @@ void WorldBuilder::add_object(scene::Shape const& shape, int32_t instance, Inher
                                             : baked_triangles(data, mesh->smooth, given.transform);
     } else {
         object.triangles = baked_triangles(rectangle_, false, given.transform);
+        object.is_rectangle = true;
     }
     world_.objects_.push_back(std::move(object));
+}
+
+/// Programs for all that objects show: what nothing uses is not compiled.
+void WorldBuilder::compile_networks() {
+    world_.textures_ = shading::Textures(scene_.textures.size());
+    world_.materials_.resize(scene_.materials.size());
+    std::vector<bool> done(scene_.materials.size(), false);
+    for (Object const& o : world_.objects_) {
+        SourceLocation const& where = scene_.instance_locations[size_t(o.source_instance)];
+        auto prepare = [&](scene::TextureId id) { world_.textures_.prepare(compiler_, id, where); };
+        prepare(o.alpha.texture);
+        prepare(o.normal_map);
+        if (o.emission) prepare(scene_.emissions[size_t(o.emission.index)].emission.texture);
+        if (!o.material) continue;
+        auto const index = size_t(o.material.index);
+        prepare(shading::interior_ior(scene_.materials[index]).texture);
+        if (done[index]) continue;
+        world_.materials_[index] =
+            shading::compile(scene_.materials[index], compiler_, scene_.material_locations[index]);
+        done[index] = true;
+    }
 }
 
 int32_t WorldBuilder::add_medium(media::Medium const& medium) {
