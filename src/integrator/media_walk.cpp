@@ -16,7 +16,7 @@ void cross_boundary(world::World const& world, shading::SurfacePoint const& poin
                     Vec3 const& direction, media::MediumStack& stack) {
     if (!world.object(point.object).has_interior) return;
     if (dot(direction, point.ng) < 0)
-        stack.enter(world.interior(point.object, point.uv));
+        stack.enter(world.interior(point));
     else
         stack.leave(point.object);
 }
@@ -54,7 +54,7 @@ media::MediumStack media_at(world::World const& world, Vec3 const& p) {
         bool const fresh = std::find(seen.begin(), seen.end(), point.object) == seen.end();
         seen.push_back(point.object);
         if (fresh && world.object(point.object).has_interior && dot(point.ng, ray.direction) > 0)
-            containing.push_back(world.interior(point.object, point.uv));
+            containing.push_back(world.interior(point));
         ray.origin = shading::offset_origin(point, ray.direction);
     }
     // The outermost is left last, so it was entered first.

@@ -4,6 +4,7 @@
 #include "base/match.h"
 #include "io/scene_builder.h"
 #include "io/transform_reader.h"
+#include "scene/node_types.h"
 
 namespace weft::io {
 
@@ -30,6 +31,10 @@ template <class Kind>
 constexpr std::string_view category_of(schema::Id<Kind> const&) {
     return Kind::category;
 }
+template <schema::SurfaceDefault T>
+constexpr std::string_view category_of(schema::Input<T> const&) {
+    return "texture";
+}
 template <class Kind>
 constexpr std::string_view category_of(std::vector<schema::Id<Kind>> const&) {
     return Kind::category;
@@ -39,6 +44,15 @@ constexpr std::string_view category_of(std::vector<schema::Id<Kind>> const&) {
 inline bool in_range(double v, schema::Attr const& attr) { return v >= attr.min && v <= attr.max; }
 inline bool in_range(Color const& c, schema::Attr const& attr) {
     return in_range(c.r, attr) && in_range(c.g, attr) && in_range(c.b, attr);
+}
+inline bool in_range(Vec3 const& v, schema::Attr const& attr) {
+    return in_range(v.x, attr) && in_range(v.y, attr) && in_range(v.z, attr);
+}
+inline bool in_range(Vec2 const& v, schema::Attr const& attr) {
+    return in_range(v.x, attr) && in_range(v.y, attr);
+}
+inline bool in_range(schema::AnyValue const& a, schema::Attr const& attr) {
+    return in_range(a.v, attr);
 }
 template <class T>
 bool in_range(schema::Input<T> const& v, schema::Attr const& attr) {
@@ -137,14 +151,24 @@ void ObjectReader::read_child(std::string_view name, XmlElement const& child, T&
     }
 }
 
-/// A parameter from a texture: a constant one is its value (for a number, the channels' mean);
-/// any other is kept as it is, where the parameter may vary.
+/// A parameter from a node, whose type must fit. A constant one is its value (for a number, the
+/// channels' mean); any other is kept as it is, where the parameter may vary.
 template <class T>
 void ObjectReader::read_texture(std::string_view name, XmlElement const& child, T& value,
                                 schema::Attr const& attr) {
     auto const id = builder_.object<schema::TextureKind>(child);
     scene::Texture const& texture = builder_.texture(id);
     XmlElement const& element = builder_.resolve(child);
+    if constexpr (detail::is_input<T>) {
+        auto const wanted = schema::input_type<decltype(value.value)>;
+        auto const given = builder_.texture_type(id);
+        if (!scene::accepts(wanted, given))
+            throw InputError(child.where, title_of(name) + " expects a " +
+                                              std::string(schema::type_name(wanted)) +
+                                              ", found a " + std::string(schema::type_name(given)) +
+                                              " from " + element_title(element) +
+                                              "; `convert` and `extract` make one of the other");
+    }
     auto check = [&](Color const& c, std::string_view parameter) {
         if (detail::in_range(c, attr)) return;
         throw InputError(location_of(element, parameter),
@@ -152,20 +176,26 @@ void ObjectReader::read_texture(std::string_view name, XmlElement const& child, 
                              ", found '" + schema::TextForm<Color>::write(c) + "'");
     };
     if (auto const* checkerboard = std::get_if<scene::Checkerboard>(&texture)) {
-        check(checkerboard->color0, "color0");
-        check(checkerboard->color1, "color1");
+        if (!checkerboard->color0.texture) check(checkerboard->color0.value, "color0");
+        if (!checkerboard->color1.texture) check(checkerboard->color1.value, "color1");
     }
     auto const* constant = std::get_if<scene::ConstantTexture>(&texture);
-    if (constant) {
-        Color const& c = constant->value;
-        check(c, "value");
-        auto assign = Overloaded{[&](Color& to) { to = c; },
-                                 [&](float& to) { to = c == Color(c.r) ? c.r : average(c); }};
-        if constexpr (detail::is_input<T>)
-            assign(value.value);
-        else
-            assign(value);
-    } else if constexpr (detail::is_input<T>) {
+    auto assign =
+        Overloaded{[](Color const& c, Color& to) { to = c; },
+                   [](Color const& c, float& to) { to = c == Color(c.r) ? c.r : average(c); }};
+    if constexpr (std::is_same_v<T, Color> || std::is_same_v<T, float> ||
+                  std::is_same_v<T, schema::Input<Color>> ||
+                  std::is_same_v<T, schema::Input<float>>) {
+        if (constant) {
+            check(constant->value, "value");
+            if constexpr (detail::is_input<T>)
+                assign(constant->value, value.value);
+            else
+                assign(constant->value, value);
+            return;
+        }
+    }
+    if constexpr (detail::is_input<T>) {
         value.texture = id;
     } else {
         throw InputError(child.where,
@@ -184,8 +214,23 @@ T SceneBuilder::read_struct(XmlElement const& element) {
         reader.allow_definitions();
     object.describe(reader);
     reader.finish(T::info.type);
+    if constexpr (T::info.output == schema::ValueType::inputs) check_input_types(object, element);
     complete(object, element);
     return object;
+}
+
+template <class Node>
+void SceneBuilder::check_input_types(Node& node, XmlElement const& element) const {
+    auto const type_of = [&](scene::TextureId id) { return texture_type(id); };
+    scene::InputTypes types{type_of};
+    node.describe(types);
+    if (types.clash.empty()) return;
+    throw InputError(location_of(element, types.clash),
+                     in_quotes(types.clash) + " of " + element_title(element) + " expects a " +
+                         std::string(schema::type_name(types.type)) +
+                         " as the inputs before it, found a " +
+                         std::string(schema::type_name(types.clashing)) +
+                         "; `convert` and `extract` make one of the other");
 }
 
 template <class Variant>

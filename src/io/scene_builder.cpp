@@ -110,13 +110,20 @@ void check_direction(Vec3 const& direction, XmlElement const& element) {
 } // namespace
 
 int32_t SceneBuilder::add(schema::TextureKind, XmlElement const& e) {
-    return push(scene_.textures, read_variant<scene::Texture>(e));
+    scene::Texture texture = read_variant<scene::Texture>(e);
+    auto type_of = [&](scene::TextureId id) { return texture_type(id); };
+    texture_types_.push_back(
+        match(texture, [&](auto const& node) { return scene::output_type(node, type_of); }));
+    scene_.texture_locations.push_back(e.where);
+    return push(scene_.textures, std::move(texture));
 }
 int32_t SceneBuilder::add(scene::CameraKind, XmlElement const& e) {
     return push(scene_.cameras, read_variant<scene::Camera>(e));
 }
 int32_t SceneBuilder::add(scene::MaterialKind, XmlElement const& e) {
-    return push(scene_.materials, read_variant<scene::Material>(e));
+    scene::Material material = read_variant<scene::Material>(e);
+    scene_.material_locations.push_back(e.where);
+    return push(scene_.materials, std::move(material));
 }
 int32_t SceneBuilder::add(scene::ShapeKind, XmlElement const& e) {
     return push(scene_.shapes, read_variant<scene::Shape>(e));
@@ -208,6 +215,15 @@ void SceneBuilder::complete(scene::ImageTexture& texture, XmlElement const& elem
     if (files_ == Files::read)
         texture.filename.resource = load_image(
             path, texture.linear ? scene::ColorSpace::lin_rec709 : texture.color_space, where);
+}
+
+void SceneBuilder::complete(scene::Instance& instance, XmlElement const& element) {
+    if (!instance.normal) return;
+    auto const type = texture_type(instance.normal);
+    if (type != scene::ValueType::color && type != scene::ValueType::vector3)
+        throw InputError(location_of(element, "normal"),
+                         "'normal' of <instance> expects a color or a vector3, found a " +
+                             std::string(schema::type_name(type)));
 }
 
 void SceneBuilder::complete(scene::ThinLens& camera, XmlElement const& element) {

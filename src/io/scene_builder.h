@@ -44,6 +44,10 @@ class SceneBuilder {
     scene::Texture const& texture(scene::TextureId id) const {
         return scene_.textures[size_t(id.index)];
     }
+    /// What a node gives.
+    scene::ValueType texture_type(scene::TextureId id) const {
+        return texture_types_[size_t(id.index)];
+    }
 
     /// Reads one element of a category with several types.
     template <class Variant>
@@ -78,6 +82,7 @@ class SceneBuilder {
     /// What a type needs beyond its parameters: files, and rules between parameters.
     template <class T>
     void complete(T&, XmlElement const&) {}
+    void complete(scene::Instance& instance, XmlElement const& element);
     void complete(scene::ImageTexture& texture, XmlElement const& element);
     void complete(scene::ThinLens& camera, XmlElement const& element);
     void complete(scene::MeshShape& mesh, XmlElement const& element);
@@ -85,6 +90,10 @@ class SceneBuilder {
     void complete(scene::SpotLight& light, XmlElement const& element);
     void complete(scene::AreaLight& light, XmlElement const& element);
     void complete(scene::SceneContents& contents, XmlElement const& element);
+
+    /// Throws where inputs of a node that takes any type do not go together.
+    template <class Node>
+    void check_input_types(Node& node, XmlElement const& element) const;
 
     /// What an instance amounts to, the members of groups included.
     struct Summary {
@@ -101,6 +110,7 @@ class SceneBuilder {
     Files files_;
     int depth_ = 0;                  ///< of the object being read
     std::vector<Summary> summaries_; ///< one per instance of the scene
+    std::vector<scene::ValueType> texture_types_;
     /// Elements already in the scene, by what they were read as; -1: being read.
     std::map<std::pair<XmlElement const*, std::string_view>, int32_t> read_;
 };

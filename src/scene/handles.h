@@ -6,8 +6,13 @@
 
 namespace weft::scene {
 
+using schema::AnyValue;
 using schema::FileName;
 using schema::Input;
+using schema::SurfaceNormal;
+using schema::SurfacePosition;
+using schema::SurfaceUv;
+using schema::ValueType;
 
 struct CameraKind {
     static constexpr char const* category = "camera";

@@ -56,9 +56,11 @@ struct Scene {
     std::vector<std::shared_ptr<Mesh const>> meshes;
     std::vector<std::shared_ptr<image::Image const>> images;
 
-    /// Where instances and lights were written, for messages.
+    /// Where things were written, for messages.
     std::vector<SourceLocation> instance_locations;
     std::vector<SourceLocation> light_locations;
+    std::vector<SourceLocation> material_locations;
+    std::vector<SourceLocation> texture_locations;
     std::vector<std::string> instance_names;
 };
 

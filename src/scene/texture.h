@@ -1,4 +1,6 @@
-// Textures: what varies over a surface.
+// Textures: the nodes of the networks that say what varies over a surface. Every parameter that is
+// an `Input` can be fed by a node, those of nodes included. Types, inputs and meanings are those of
+// MaterialX 1.38's standard nodes where it has one.
 #pragma once
 
 #include <array>
@@ -11,8 +13,10 @@
 namespace weft::scene {
 
 struct ConstantTexture {
-    static constexpr schema::TypeInfo info{
-        .category = "texture", .type = "constant", .help = "The same value everywhere."};
+    static constexpr schema::TypeInfo info{.category = "texture",
+                                           .type = "constant",
+                                           .help = "The same value everywhere.",
+                                           .output = ValueType::color};
     Color value{1};
 
     template <class F>
@@ -40,13 +44,15 @@ struct ImageTexture {
         .type = "image",
         .help = "An image file over the unit square of uv; v runs upwards. 8 and 16 bit files hold "
                 "screen colours unless `linear` is set, float files (EXR, HDR) are linear.",
-        .example = "<texture name=\"albedo\" type=\"image\" filename=\"wood.png\"/>"};
+        .example = "<texture name=\"albedo\" type=\"image\" filename=\"wood.png\"/>",
+        .output = ValueType::color};
     FileName filename;
     float exposure = 1;
     TextureBorder border = TextureBorder::repeat;
     TextureFilter filter = TextureFilter::bilinear;
     bool linear = false;
     ColorSpace color_space = ColorSpace::g22_rec709;
+    Input<SurfaceUv> texcoord;
 
     template <class F>
     constexpr void describe(F&& f) {
@@ -61,21 +67,28 @@ struct ImageTexture {
         f("colorSpace", color_space,
           {.help = "How 8 and 16 bit files encode colours: a gamma of 2.2 as lightwave has it, "
                    "sRGB's own curve, or not at all."});
+        f("texcoord", texcoord,
+          {.help = "Where to look; unconnected: the surface's uv. A `place2d` node moves, turns "
+                   "and repeats it."});
     }
 };
 
 struct Checkerboard {
-    static constexpr schema::TypeInfo info{
-        .category = "texture", .type = "checkerboard", .help = "Two colours in alternating cells."};
-    Color color0{0};
-    Color color1{1};
-    Vec2 scale{1, 1};
+    static constexpr schema::TypeInfo info{.category = "texture",
+                                           .type = "checkerboard",
+                                           .help = "Two colours in alternating cells.",
+                                           .output = ValueType::color};
+    Input<Color> color0{Color(0)};
+    Input<Color> color1{Color(1)};
+    Input<Vec2> scale{Vec2(1, 1)};
+    Input<SurfaceUv> texcoord;
 
     template <class F>
     constexpr void describe(F&& f) {
         f("color0", color0, {.help = "Colour of the cell at the origin of uv."});
         f("color1", color1, {.help = "The other colour."});
         f("scale", scale, {.help = "Number of cells along u and v."});
+        f("texcoord", texcoord, {.help = "Where to look; unconnected: the surface's uv."});
     }
 };
 

@@ -27,7 +27,8 @@ struct TypeInfo {
     std::string_view category; ///< the tag, "light"
     std::string_view type; ///< the value of the type attribute, "point"; "" where there is one type
     std::string_view help; ///< one or two sentences
-    std::string_view example = {}; ///< a snippet of a scene file
+    std::string_view example = {};      ///< a snippet of a scene file
+    ValueType output = ValueType::none; ///< what a node gives
 };
 
 /// What a parameter means beyond its name, type and default.

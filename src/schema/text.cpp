@@ -130,6 +130,21 @@ bool TextForm<Vec2>::read(std::string_view text, Vec2& v) {
     return true;
 }
 
+std::string TextForm<AnyValue>::write(AnyValue const& a) {
+    return numbers_text(std::span(&a.v.x, size_t(a.count)));
+}
+
+bool TextForm<AnyValue>::read(std::string_view text, AnyValue& a) {
+    auto const numbers = read_numbers(text);
+    if (!numbers || numbers->empty() || numbers->size() > 3) return false;
+    auto const c = read_components(text, int(numbers->size()));
+    if (!c) return false;
+    a.count = int(c->size());
+    auto at = [&](size_t i) { return i < c->size() ? float((*c)[i]) : 0.f; };
+    a.v = a.count == 1 ? Vec3(at(0)) : Vec3(at(0), at(1), at(2));
+    return true;
+}
+
 std::string TextForm<Affined>::write(Affined const& m) {
     if (m == Affined()) return "";
     std::string text;

@@ -113,6 +113,13 @@ struct TextForm<Affined> {
     static bool read(std::string_view text, Affined& v);
 };
 
+template <>
+struct TextForm<AnyValue> {
+    static constexpr std::string_view kind = "any", expected = "1, 2 or 3 numbers";
+    static std::string write(AnyValue const& v);
+    static bool read(std::string_view text, AnyValue& v);
+};
+
 template <Choice E>
 struct TextForm<E> {
     static constexpr std::string_view kind = "choice", expected = "one of the choices";
@@ -128,10 +135,22 @@ struct TextForm<E> {
     }
 };
 
+template <SurfaceDefault T>
+struct TextForm<Input<T>> {
+    static constexpr std::string_view kind = std::is_same_v<T, SurfaceUv> ? "vector2 texture"
+                                                                          : "vector3 texture",
+                                      expected = "a texture";
+    static std::string category() { return "texture"; }
+    static std::string write(Input<T> const&) { return ""; }
+};
+
 template <class T>
 struct TextForm<Input<T>> {
-    static constexpr std::string_view kind =
-        std::is_same_v<T, float> ? "float or texture" : "color or texture";
+    static constexpr std::string_view kind = std::is_same_v<T, float>   ? "float or texture"
+                                             : std::is_same_v<T, Color> ? "color or texture"
+                                             : std::is_same_v<T, Vec2>  ? "vector2 or texture"
+                                             : std::is_same_v<T, Vec3>  ? "vector or texture"
+                                                                        : "any value or texture";
     static constexpr std::string_view expected = TextForm<T>::expected;
     static std::string category() { return "texture"; }
     static std::string write(Input<T> const& v) { return TextForm<T>::write(v.value); }

@@ -2,8 +2,11 @@
 // Vec2, Vec3, Affined and enumerations with named choices.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
+#include <type_traits>
 
 #include "base/affine.h"
 #include "base/color.h"
@@ -26,12 +29,65 @@ struct FileName {
     friend bool operator==(FileName const&, FileName const&) = default;
 };
 
-/// What fills an Input: a texture.
+/// What fills an Input: a node, written as a texture.
 struct TextureKind {
     static constexpr char const* category = "texture";
 };
 
-/// A parameter that is a constant or, where `texture` is set, varies over the surface.
+/// What a node gives and an input takes, named in files as MaterialX does. `inputs`: what the
+/// inputs of type AnyValue have; `triple`: a literal of three numbers, a colour or a vector.
+enum class ValueType : uint8_t { none, number, color, vector2, vector3, inputs, triple };
+
+constexpr std::string_view type_name(ValueType t) {
+    constexpr std::array<std::string_view, 7> names{
+        "nothing", "float", "color", "vector2", "vector3", "what its inputs are", "3 numbers"};
+    return names[size_t(t)];
+}
+
+/// A literal of 1, 2 or 3 numbers, for inputs that take every type.
+struct AnyValue {
+    Vec3 v{0, 0, 0}; ///< one number stands in all three; of two, z is 0
+    int count = 1;   ///< how many numbers it was written with
+
+    constexpr AnyValue() = default;
+    constexpr explicit AnyValue(float x) : v(x, x, x) {}
+    constexpr AnyValue(float x, float y, float z) : v(x, y, z), count(3) {}
+    friend constexpr bool operator==(AnyValue const&, AnyValue const&) = default;
+};
+
+/// The values of inputs that, where nothing is connected, take what the surface has at the point
+/// (MaterialX: defaultgeomprop).
+struct SurfaceUv {
+    friend constexpr bool operator==(SurfaceUv, SurfaceUv) = default;
+};
+struct SurfacePosition { ///< in the object's space
+    friend constexpr bool operator==(SurfacePosition, SurfacePosition) = default;
+};
+struct SurfaceNormal { ///< unit, world space
+    friend constexpr bool operator==(SurfaceNormal, SurfaceNormal) = default;
+};
+
+/// What an input of T takes from a node: for AnyValue whatever it is.
+template <class T>
+inline constexpr ValueType input_type = ValueType::vector3;
+template <>
+inline constexpr ValueType input_type<float> = ValueType::number;
+template <>
+inline constexpr ValueType input_type<Color> = ValueType::color;
+template <>
+inline constexpr ValueType input_type<Vec2> = ValueType::vector2;
+template <>
+inline constexpr ValueType input_type<SurfaceUv> = ValueType::vector2;
+template <>
+inline constexpr ValueType input_type<AnyValue> = ValueType::inputs;
+
+/// Inputs that have no literal: unconnected, they are the surface's own.
+template <class T>
+concept SurfaceDefault = std::is_same_v<T, SurfaceUv> || std::is_same_v<T, SurfacePosition> ||
+    std::is_same_v<T, SurfaceNormal>;
+
+/// A parameter that is a constant or, where `texture` is set, what that node gives at the point.
+/// In a compiled program `texture` is the index of a register.
 template <class T>
 struct Input {
     T value{};

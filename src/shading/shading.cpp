@@ -17,14 +17,10 @@ float relative_ior(float ior, Boundary const& b) {
 }
 
 struct LobeBuilder {
-    Textures const& textures;
-    SurfacePoint const& point;
+    Values const& at;
     Vec3 const& wo;
     Boundary const& boundary;
     lobes::Bsdf& bsdf;
-
-    Color at(scene::Input<Color> const& input) const { return textures.at(input, point.uv); }
-    float at(scene::Input<float> const& input) const { return textures.at(input, point.uv); }
 
     float operator()(scene::Diffuse const& m) const {
         bsdf.add(at(m.albedo), lobes::Lambert{});
@@ -93,19 +89,27 @@ Frame shading_frame(SurfacePoint const& point, Vec3 const& wo, Vec3 const& ng_fa
     return point.dpdu == Vec3(0) ? Frame(n) : Frame(n, point.dpdu);
 }
 
-float add_lobes(scene::Material const& material, Textures const& textures,
-                SurfacePoint const& point, Vec3 const& wo, Boundary const& boundary,
-                lobes::Bsdf& bsdf) {
-    float const ior = match(material, LobeBuilder{textures, point, wo, boundary, bsdf});
+CompiledMaterial compile(scene::Material const& material, GraphCompiler& compiler,
+                         SourceLocation const& where) {
+    CompiledMaterial compiled{material, {}};
+    std::visit([&](auto& m) { compiled.program = compiler.compile(m, where); },
+               compiled.parameters);
+    return compiled;
+}
+
+float add_lobes(CompiledMaterial const& material, SurfacePoint const& point, Vec3 const& wo,
+                Boundary const& boundary, lobes::Bsdf& bsdf) {
+    Values values;
+    evaluate(material.program, point, values);
+    float const ior = match(material.parameters, LobeBuilder{values, wo, boundary, bsdf});
     bsdf.prepare(wo);
     return ior;
 }
 
-float interior_ior(scene::Material const& material, Textures const& textures, Vec2 uv) {
-    if (auto const* d = std::get_if<scene::Dielectric>(&material)) return textures.at(d->ior, uv);
-    if (auto const* d = std::get_if<scene::RoughDielectric>(&material))
-        return textures.at(d->ior, uv);
-    return 1;
+scene::Input<float> interior_ior(scene::Material const& material) {
+    if (auto const* d = std::get_if<scene::Dielectric>(&material)) return d->ior;
+    if (auto const* d = std::get_if<scene::RoughDielectric>(&material)) return d->ior;
+    return {1};
 }
 
 } // namespace weft::shading

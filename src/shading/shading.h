@@ -3,8 +3,8 @@
 
 #include "lobes/bsdf.h"
 #include "scene/material.h"
+#include "shading/graph_compiler.h"
 #include "shading/surface_point.h"
-#include "shading/textures.h"
 
 namespace weft::shading {
 
@@ -25,14 +25,22 @@ struct Shading {
 /// be visible from wo where interpolation turned it away (so that silhouettes are not black).
 Frame shading_frame(SurfacePoint const& point, Vec3 const& wo, Vec3 const& ng_facing_wo);
 
+/// A material whose inputs read the registers of its program.
+struct CompiledMaterial {
+    scene::Material parameters;
+    Program program;
+};
+/// Throws InputError at `where` for a network of nodes that is too large.
+CompiledMaterial compile(scene::Material const& material, GraphCompiler& compiler,
+                         SourceLocation const& where);
+
 /// Appends the material's lobes at `point`, seen from unit `wo`, to `bsdf`, and prepares it.
 /// Returns the index of refraction of the object's inside (1 where light does not go in).
-float add_lobes(scene::Material const& material, Textures const& textures,
-                SurfacePoint const& point, Vec3 const& wo, Boundary const& boundary,
-                lobes::Bsdf& bsdf);
+float add_lobes(CompiledMaterial const& material, SurfacePoint const& point, Vec3 const& wo,
+                Boundary const& boundary, lobes::Bsdf& bsdf);
 
-/// Index of refraction of a closed object of this material at `uv`.
-float interior_ior(scene::Material const& material, Textures const& textures, Vec2 uv);
+/// Index of refraction of a closed object of this material.
+scene::Input<float> interior_ior(scene::Material const& material);
 
 /// Whether the material has no surface of its own: rays pass straight on.
 inline bool is_null_boundary(scene::Material const& material) {

@@ -10,6 +10,7 @@ struct SurfacePoint {
     Vec3 p_error{0, 0, 0}; ///< how far each coordinate of p may lie from the true surface
     Vec3 ng{0, 0, 1};      ///< unit geometric normal of the front
     Vec3 ns{0, 0, 1};      ///< unit shading normal of the front
+    Vec3 wo{0, 0, 1};      ///< unit, to where the point is seen from
     Vec3 dpdu{0, 0, 0};    ///< along growing u, any length; 0 where there are no uvs
                            ///< or nothing looks at it
     Vec2 uv{0, 0};

@@ -2,33 +2,36 @@
 
 namespace weft::shading {
 
-Textures::Textures(std::vector<scene::Texture> const& textures,
-                   std::vector<std::shared_ptr<image::Image const>> const& images) {
-    for (scene::Texture const& texture : textures) {
-        std::visit(Overloaded{
-                       [&](scene::ConstantTexture const& t) {
-                           lookups_.emplace_back(ConstantLookup{t.value});
-                       },
-                       [&](scene::ImageTexture const& t) {
-                           lookups_.emplace_back(
-                               ImageLookup{images[size_t(t.filename.resource)], t.exposure,
-                                           t.border == scene::TextureBorder::clamp,
-                                           t.filter == scene::TextureFilter::nearest});
-                       },
-                       [&](scene::Checkerboard const& t) {
-                           lookups_.emplace_back(CheckerboardLookup{t.color0, t.color1, t.scale});
-                       },
-                   },
-                   texture);
-    }
+void Textures::prepare(GraphCompiler& compiler, scene::TextureId id, SourceLocation const& where) {
+    if (!id || roots_[size_t(id.index)].prepared) return;
+    Root& r = roots_[size_t(id.index)];
+    r.program = compiler.compile(id, r.result, where);
+    r.prepared = true;
+}
+
+Vec3 Textures::at(scene::TextureId id, SurfacePoint const& point) const {
+    Root const& r = root(id);
+    if (r.result.reg < 0) return r.result.value;
+    Values values;
+    evaluate(r.program, point, values);
+    return values[size_t(r.result.reg)];
 }
 
 Vec2i Textures::resolution(scene::TextureId id) const {
-    return match(
-        lookups_[size_t(id.index)],
-        Overloaded{[](ImageLookup const& l) { return Vec2i(l.image->width, l.image->height); },
-                   [](CheckerboardLookup const&) { return Vec2i(512, 256); },
-                   [](ConstantLookup const&) { return Vec2i(1, 1); }});
+    Root const& r = root(id);
+    if (r.result.reg < 0) return {1, 1};
+    Vec2i largest(0, 0);
+    bool patterns = false;
+    for (Instruction const& instruction : r.program.instructions) {
+        if (auto const* image = std::get_if<ImageOp>(&instruction)) {
+            largest.x = std::max(largest.x, image->lookup.image->width);
+            largest.y = std::max(largest.y, image->lookup.image->height);
+        } else {
+            patterns = true;
+        }
+    }
+    if (largest.x == 0) return {512, 256};
+    return patterns ? Vec2i(std::max(largest.x, 512), std::max(largest.y, 256)) : largest;
 }
 
 } // namespace weft::shading

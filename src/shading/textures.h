@@ -1,52 +1,65 @@
-// Textures as the render reads them: constants are already folded into their inputs, images are
-// lookups (image_lookup.h).
+// Networks that end in a single input outside of materials: opacity, emission, environments,
+// normal maps. Those that are asked for are compiled when the world is made.
 #pragma once
 
-#include <memory>
-#include <variant>
+#include <cassert>
 #include <vector>
 
-#include "base/match.h"
-#include "scene/texture.h"
-#include "shading/image_lookup.h"
+#include "shading/graph_compiler.h"
 
 namespace weft::shading {
-
-struct CheckerboardLookup {
-    Color color0, color1;
-    Vec2 scale;
-
-    Color at(Vec2 uv) const {
-        float const cell = std::floor(uv.x * scale.x) + std::floor(uv.y * scale.y);
-        return std::fmod(cell, 2.f) == 0 ? color0 : color1;
-    }
-};
-
-struct ConstantLookup {
-    Color value;
-    Color at(Vec2) const { return value; }
-};
 
 class Textures {
   public:
     Textures() = default;
-    Textures(std::vector<scene::Texture> const& textures,
-             std::vector<std::shared_ptr<image::Image const>> const& images);
+    explicit Textures(size_t count) : roots_(count) {}
 
-    Color at(scene::TextureId id, Vec2 uv) const {
-        return match(lookups_[size_t(id.index)], [&](auto const& l) { return l.at(uv); });
+    /// Compiles the network of `id` (none: nothing to do). `where`: who asks, for messages.
+    void prepare(GraphCompiler& compiler, scene::TextureId id, SourceLocation const& where);
+
+    /// What the prepared network of `id` asks of a point.
+    Needs needs(scene::TextureId id) const { return id ? root(id).program.needs : Needs::nothing; }
+    /// The value of a prepared network at `point`.
+    Vec3 at(scene::TextureId id, SurfacePoint const& point) const;
+    Color at(scene::Input<Color> const& input, SurfacePoint const& point) const {
+        return input.texture ? color_at(input.texture, point) : input.value;
     }
-    Color at(scene::Input<Color> const& input, Vec2 uv) const {
-        return input.texture ? at(input.texture, uv) : input.value;
+    float at(scene::Input<float> const& input, SurfacePoint const& point) const {
+        return input.texture ? number_at(input.texture, point) : input.value;
     }
-    float at(scene::Input<float> const& input, Vec2 uv) const {
-        return input.texture ? average(at(input.texture, uv)) : input.value;
+    /// The same for networks that need nothing but uv.
+    template <class T>
+    T at(scene::Input<T> const& input, Vec2 uv) const {
+        if (!input.texture) return input.value;
+        assert(within(needs(input.texture), Needs::uv));
+        SurfacePoint point;
+        point.uv = uv;
+        return at(input, point);
     }
-    /// Pixels of an image texture as (width, height); (1, 1) for a constant.
+    /// Pixels of the largest image in a prepared network as (width, height); what resolves most
+    /// patterns where there is none; (1, 1) for a constant.
     Vec2i resolution(scene::TextureId id) const;
 
   private:
-    std::vector<std::variant<ConstantLookup, ImageLookup, CheckerboardLookup>> lookups_;
+    struct Root {
+        Program program;
+        Operand result;
+        bool prepared = false;
+    };
+    Root const& root(scene::TextureId id) const {
+        assert(roots_[size_t(id.index)].prepared);
+        return roots_[size_t(id.index)];
+    }
+    Color color_at(scene::TextureId id, SurfacePoint const& point) const {
+        Vec3 const v = at(id, point);
+        return {v.x, v.y, v.z};
+    }
+    float number_at(scene::TextureId id, SurfacePoint const& point) const {
+        Color const c = color_at(id, point);
+        return root(id).result.type == scene::ValueType::color ? average(c) : c.r;
+    }
+
+    std::vector<Root> roots_; ///< by node
 };
 
 } // namespace weft::shading

@@ -1,4 +1,5 @@
 // The half of WorldBuilder that makes lights.
+#include "base/warp.h"
 #include "world/world_builder.h"
 
 namespace weft::world {
@@ -50,13 +51,30 @@ lights::MeshEmitter::Triangle front_first(TriangleData const& data,
 
 } // namespace
 
-float mean_luminance(shading::Textures const& textures, scene::Input<Color> const& input) {
+float WorldBuilder::mean_luminance(AreaLight const& light) const {
+    scene::Input<Color> const& input = light.emission;
     if (!input.texture) return luminance(input.value);
     constexpr int n = 32;
     double sum = 0;
-    for (int i = 0; i < n * n; ++i)
-        sum +=
-            luminance(textures.at(input, {(float(i % n) + 0.5f) / n, (float(i / n) + 0.5f) / n}));
+    for (int i = 0; i < n * n; ++i) {
+        Vec2 const uv((float(i % n) + 0.5f) / n, (float(i / n) + 0.5f) / n);
+        if (light.uv_alone) {
+            sum += luminance(world_.textures_.at(input, uv));
+            continue;
+        }
+        // Points of the surface, as seen from some place that sees them.
+        Object const& object = world_.objects_[light.object];
+        Vec3 const local = lights::uv_to_direction(uv);
+        Vec2 const b = square_to_triangle(uv);
+        Hit hit{0, light.object, 0, b.x, b.y};
+        if (object.triangles >= 0) {
+            auto const& source = world_.triangles_[size_t(object.triangles)].source;
+            hit.primitive = uint32_t(size_t(i) * source->triangles.size() / (n * n));
+        }
+        auto point = world_.point_on(hit, local, Vec3(0, 0, 1));
+        point.wo = point.ng;
+        sum += luminance(world_.textures_.at(input, point));
+    }
     return float(sum / (n * n));
 }
 
@@ -76,14 +94,27 @@ void WorldBuilder::add_area_lights(std::vector<Light>& lights, std::vector<float
             return lights::MeshEmitter(std::move(positions), std::move(triangles), data.source->uvs,
                                        object.to_world.determinant() < 0);
         };
-        AreaLight light{make(), object.emission, object.alpha, 0};
+        auto uv_alone = [&](scene::TextureId id) {
+            return within(world_.textures_.needs(id), shading::Needs::uv);
+        };
+        AreaLight light{
+            make(),       emission.emission,
+            object.alpha, 0,
+            index,        uv_alone(emission.emission.texture) && uv_alone(object.alpha.texture)};
         float const area = match(light.emitter, [](auto const& e) { return e.area(); });
         light.extent = std::sqrt(area);
         object.light = int32_t(lights.size());
-        weights.push_back(weight * kPi * area *
-                          mean_luminance(world_.textures_, emission.emission));
+        weights.push_back(weight * kPi * area * mean_luminance(light));
         lights.emplace_back(std::move(light));
     }
+}
+
+void WorldBuilder::prepare_environment(scene::EnvironmentLight const& light,
+                                       SourceLocation const& where) {
+    world_.textures_.prepare(compiler_, light.texture.texture, where);
+    if (!within(world_.textures_.needs(light.texture.texture), shading::Needs::uv))
+        throw InputError(where, "'texture' of <light type=\"envmap\"> expects nodes that depend on "
+                                "uv alone, found one that depends on a surface");
 }
 
 void WorldBuilder::build_lights() {
@@ -116,6 +147,7 @@ void WorldBuilder::build_lights() {
                            add(spot, l.weight, luminance(spot.power()));
                        },
                        [&](scene::EnvironmentLight const& l) {
+                           prepare_environment(l, scene_.light_locations[size_t(id.index)]);
                            Affine const to_world = rotation_of(l.transform);
                            Vec2i const size = l.texture.texture
                                                   ? world_.textures_.resolution(l.texture.texture)
@@ -133,7 +165,7 @@ void WorldBuilder::build_lights() {
                    scene_.lights[size_t(id.index)]);
     }
     add_area_lights(lights, weights);
-    world_.lights_ = LightTable(std::move(lights), weights, scene_.emissions, &world_.textures_);
+    world_.lights_ = LightTable(std::move(lights), weights, world_);
 }
 
 } // namespace weft::world

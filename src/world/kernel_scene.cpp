@@ -27,7 +27,9 @@ float hit_opacity(RTCFilterFunctionNArguments const* args, FilterContext const& 
                   RTCHitN_v(args->hit, 1, 0)};
     Vec3 const ng(RTCHitN_Ng_x(args->hit, 1, 0), RTCHitN_Ng_y(args->hit, 1, 0),
                   RTCHitN_Ng_z(args->hit, 1, 0));
-    return context.world->opacity(hit, ng);
+    Vec3 const direction(RTCRayN_dir_x(args->ray, 1, 0), RTCRayN_dir_y(args->ray, 1, 0),
+                         RTCRayN_dir_z(args->ray, 1, 0));
+    return context.world->opacity(hit, ng, direction);
 }
 
 /// Closest hit: a surface is there with the probability of its opacity. The decision is a hash of

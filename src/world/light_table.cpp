@@ -1,13 +1,12 @@
 #include "world/light_table.h"
 
-#include "world/ray.h"
+#include "world/world.h"
 
 namespace weft::world {
 
 LightTable::LightTable(std::vector<Light> lights, std::span<float const> weights,
-                       std::vector<scene::LambertianEmission> emissions,
-                       shading::Textures const* textures)
-    : lights_(std::move(lights)), emissions_(std::move(emissions)), textures_(textures) {
+                       World const& world)
+    : lights_(std::move(lights)), world_(&world), textures_(&world.textures()) {
     if (!lights_.empty()) choice_ = lights::LightChoice(weights);
     for (size_t i = 0; i < lights_.size(); ++i)
         if (std::holds_alternative<EnvironmentLight>(lights_[i]))
@@ -47,8 +46,12 @@ LightSample LightTable::sample_light(AreaLight const& l, Vec3 const& ref, Vec2 u
     if (!(s.pdf > 0) || dot(s.n, s.wi) >= 0) return sample; // nothing, or its back
     sample.wi = s.wi;
     sample.distance = s.distance;
-    sample.radiance = textures_->at(emissions_[size_t(l.emission.index)].emission, s.uv) *
-                      textures_->at(l.alpha, s.uv);
+    if (l.uv_alone) {
+        sample.radiance = textures_->at(l.emission, s.uv) * textures_->at(l.alpha, s.uv);
+    } else {
+        auto const point = world_->point_near(l.object, s.primitive, s.p, -s.wi);
+        sample.radiance = textures_->at(l.emission, point) * textures_->at(l.alpha, point);
+    }
     sample.pdf = s.pdf;
     // As far off the light as a ray that leaves it would start.
     Vec3 const extent = abs(s.p) + Vec3(l.extent);

@@ -15,13 +15,17 @@
 
 namespace weft::world {
 
+class World;
+
 /// An emissive object, sampled over its surface. One of a mirrored or flat shape emits from the
 /// front alone.
 struct AreaLight {
     lights::Emitter emitter;
-    scene::EmissionId emission;
+    scene::Input<Color> emission;
     scene::Input<float> alpha{1}; ///< rays that look for it miss it where it is not there
     float extent = 0;             ///< about its size: the root of its area
+    uint32_t object = 0;          ///< of the world
+    bool uv_alone = true;         ///< emission and alpha depend on uv alone
 };
 
 struct EnvironmentLight {
@@ -47,8 +51,8 @@ class LightTable {
   public:
     LightTable() = default;
     /// `weights`: one per light, its power times the user's weight.
-    LightTable(std::vector<Light> lights, std::span<float const> weights,
-               std::vector<scene::LambertianEmission> emissions, shading::Textures const* textures);
+    /// `world`: whose lights they are; outlives the table.
+    LightTable(std::vector<Light> lights, std::span<float const> weights, World const& world);
 
     size_t size() const { return lights_.size(); }
     /// Whether no light is ever sampled.
@@ -81,9 +85,9 @@ class LightTable {
 
     std::vector<Light> lights_;
     std::vector<int32_t> environments_;
-    std::vector<scene::LambertianEmission> emissions_;
     lights::LightChoice choice_;
-    shading::Textures const* textures_ = nullptr;
+    World const* world_ = nullptr;
+    shading::Textures const* textures_ = nullptr; ///< of the world
 };
 
 } // namespace weft::world

@@ -24,16 +24,46 @@ Vec2 uv_at(Vertex const& a, Vertex const& b, Vertex const& c, Hit const& hit) {
 
 shading::SurfacePoint World::surface(Ray const& ray, Hit const& hit) const {
     Object const& object = objects_[hit.object];
+    Vec3 const local = object.kind == ObjectKind::Sphere
+                           ? object.to_object.point(ray.origin + ray.direction * hit.t)
+                           : Vec3(0);
+    return point_on(hit, local, -ray.direction);
+}
+
+shading::SurfacePoint World::point_on(Hit const& hit, Vec3 const& local, Vec3 const& wo) const {
+    Object const& object = objects_[hit.object];
     shading::SurfacePoint point;
     point.t = hit.t;
+    point.wo = wo;
     point.object = hit.object;
     point.primitive = hit.primitive;
     if (object.kind == ObjectKind::Sphere)
-        sphere_point(object, ray, hit, point);
+        sphere_point(object, normalize(local), point); // what t has lost does not matter then
     else
         mesh_point(object, hit, point);
     if (object.normal_map) apply_normal_map(object, point);
     return point;
+}
+
+shading::SurfacePoint World::point_near(uint32_t object, uint32_t primitive, Vec3 const& p,
+                                        Vec3 const& wo) const {
+    Object const& o = objects_[object];
+    Vec3 const local = o.instanced || o.kind == ObjectKind::Sphere ? o.to_object.point(p) : p;
+    Hit hit{0, object, primitive};
+    if (o.kind == ObjectKind::Sphere) return point_on(hit, local, wo);
+    TriangleData const& data = triangles_[size_t(o.triangles)];
+    auto place = [&](uint32_t triangle) {
+        auto const& v = data.source->triangles[triangle].v;
+        Vec3 const &a = data.vertices[v[0]].p, e1 = data.vertices[v[1]].p - a,
+                   e2 = data.vertices[v[2]].p - a, n = cross(e1, e2), d = local - a;
+        float const scale = 1 / length_squared(n);
+        hit.primitive = triangle;
+        hit.u = dot(cross(d, e2), n) * scale;
+        hit.v = dot(cross(e1, d), n) * scale;
+    };
+    place(primitive);
+    if (o.is_rectangle && hit.u < 0) place(1);
+    return point_on(hit, local, wo);
 }
 
 Vec2 World::mesh_uv(Object const& object, Hit const& hit) const {
@@ -79,10 +109,8 @@ void World::mesh_point(Object const& object, Hit const& hit, shading::SurfacePoi
     }
 }
 
-void World::sphere_point(Object const& object, Ray const& ray, Hit const& hit,
+void World::sphere_point(Object const& object, Vec3 const& local,
                          shading::SurfacePoint& point) const {
-    // Back onto the unit sphere: what t has lost does not matter then.
-    Vec3 const local = normalize(object.to_object.point(ray.origin + ray.direction * hit.t));
     point.p = object.to_world.point(local);
     point.ng = point.ns = normalize(object.to_object.transposed(local));
     point.uv = lights::direction_to_uv(local);
@@ -92,26 +120,29 @@ void World::sphere_point(Object const& object, Ray const& ray, Hit const& hit,
 }
 
 void World::apply_normal_map(Object const& object, shading::SurfacePoint& point) const {
-    Color const c = textures_.at(object.normal_map, point.uv);
-    Vec3 const n(2 * c.r - 1, 2 * c.g - 1, 2 * c.b - 1);
+    Vec3 const c = textures_.at(object.normal_map, point);
+    Vec3 const n(2 * c.x - 1, 2 * c.y - 1, 2 * c.z - 1);
     if (!(length_squared(n) > 0)) return;
     Vec3 const mapped = normalize(Frame(point.ns, point.dpdu).to_world(n));
     if (dot(mapped, point.ng) > 0) point.ns = mapped;
 }
 
-float World::opacity(Hit const& hit, Vec3 const& ng) const {
+float World::opacity(Hit const& hit, Vec3 const& ng, Vec3 const& direction) const {
     Object const& o = objects_[hit.object];
     if (!o.alpha.texture) return o.alpha.value;
-    if (o.kind == ObjectKind::Mesh) return textures_.at(o.alpha, mesh_uv(o, hit));
+    bool const uv_alone = within(textures_.needs(o.alpha.texture), shading::Needs::uv);
+    if (o.kind == ObjectKind::Mesh && uv_alone) return textures_.at(o.alpha, mesh_uv(o, hit));
     // A sphere's normal says where on it the hit is; that of an instance is local already.
-    return textures_.at(o.alpha,
-                        lights::direction_to_uv(o.instanced ? ng : o.to_object.vector(ng)));
+    Vec3 const local = o.instanced ? ng : o.to_object.vector(ng);
+    if (uv_alone) return textures_.at(o.alpha, lights::direction_to_uv(local));
+    Vec3 const wo = -(o.instanced ? o.to_world.vector(direction) : direction);
+    return textures_.at(o.alpha, point_on(hit, local, normalize(wo)));
 }
 
 Color World::emission(shading::SurfacePoint const& point, Vec3 const& wo) const {
     Object const& o = objects_[point.object];
     if (!o.emission || dot(point.ng, wo) <= 0) return Color(0);
-    return textures_.at(scene_->emissions[size_t(o.emission.index)].emission, point.uv);
+    return textures_.at(scene_->emissions[size_t(o.emission.index)].emission, point);
 }
 
 shading::Shading World::shade(shading::SurfacePoint const& point, Vec3 const& wo,
@@ -123,19 +154,19 @@ shading::Shading World::shade(shading::SurfacePoint const& point, Vec3 const& wo
     shading.emission = emission(point, wo);
     if (o.material) {
         shading::Boundary const boundary{entering, stack.current_without(point.object).ior};
-        shading.ior = shading::add_lobes(scene_->materials[size_t(o.material.index)], textures_,
-                                         point, wo, boundary, shading.bsdf);
+        shading.ior = shading::add_lobes(materials_[size_t(o.material.index)], point, wo, boundary,
+                                         shading.bsdf);
     }
     return shading;
 }
 
-media::Interior World::interior(uint32_t object, Vec2 uv) const {
-    Object const& o = objects_[object];
+media::Interior World::interior(shading::SurfacePoint const& point) const {
+    Object const& o = objects_[point.object];
     float const ior =
-        o.material
-            ? shading::interior_ior(scene_->materials[size_t(o.material.index)], textures_, uv)
-            : 1;
-    return {object, o.priority, ior, o.medium};
+        o.material ? textures_.at(
+                         shading::interior_ior(scene_->materials[size_t(o.material.index)]), point)
+                   : 1;
+    return {point.object, o.priority, ior, o.medium};
 }
 
 } // namespace weft::world

@@ -15,6 +15,7 @@
 #include "media/medium_stack.h"
 #include "scene/scene.h"
 #include "shading/shading.h"
+#include "shading/textures.h"
 #include "world/camera_rays.h"
 #include "world/embree.h"
 #include "world/light_table.h"
@@ -58,6 +59,7 @@ struct Object {
     bool has_interior = false; ///< crossing its surface changes the medium stack
     bool is_null = false;      ///< no surface: rays pass straight on
     Affine to_world, to_object;
+    bool is_rectangle = false;    ///< a mesh of two triangles that lights know as one
     int32_t source_instance = -1; ///< of the scene, for messages
 };
 
@@ -91,11 +93,16 @@ class World {
     /// Emission and lobes at `point` towards unit `wo`.
     shading::Shading shade(shading::SurfacePoint const& point, Vec3 const& wo,
                            media::MediumStack const& stack) const;
+    /// The point of an object that is nearest to `p` on it: of the triangle `primitive`, where it
+    /// is a mesh. Seen from unit `wo`.
+    shading::SurfacePoint point_near(uint32_t object, uint32_t primitive, Vec3 const& p,
+                                     Vec3 const& wo) const;
     /// Emission alone, towards `wo`.
     Color emission(shading::SurfacePoint const& point, Vec3 const& wo) const;
 
     Object const& object(uint32_t index) const { return objects_[index]; }
-    media::Interior interior(uint32_t object, Vec2 uv) const;
+    /// What is inside of the object whose surface `point` is on.
+    media::Interior interior(shading::SurfacePoint const& point) const;
     media::Medium const& medium(int32_t index) const { return media_[size_t(index)]; }
     /// What surrounds the camera.
     media::MediumStack outside() const { return outside_; }
@@ -113,16 +120,19 @@ class World {
     /// Records every ray into `recorder` (null: none), for measuring the kernel alone.
     void record_rays(RayRecorder* recorder) const { recorder_ = recorder; }
 
-    /// Opacity at a hit whose geometric normal, as the kernel has it, is `ng`.
-    float opacity(Hit const& hit, Vec3 const& ng) const;
+    /// Opacity at a hit, seen along `direction`, whose geometric normal, as the kernel has it, is
+    /// `ng`.
+    float opacity(Hit const& hit, Vec3 const& ng, Vec3 const& direction) const;
+    /// A point of a mesh at `hit`, or of a sphere in direction `local` from its centre, both in
+    /// the object's space; seen from unit `wo`.
+    shading::SurfacePoint point_on(Hit const& hit, Vec3 const& local, Vec3 const& wo) const;
 
   private:
     friend class WorldBuilder;
     World() = default;
 
     void mesh_point(Object const& object, Hit const& hit, shading::SurfacePoint& point) const;
-    void sphere_point(Object const& object, Ray const& ray, Hit const& hit,
-                      shading::SurfacePoint& point) const;
+    void sphere_point(Object const& object, Vec3 const& local, shading::SurfacePoint& point) const;
     Vec2 mesh_uv(Object const& object, Hit const& hit) const;
     void apply_normal_map(Object const& object, shading::SurfacePoint& point) const;
 
@@ -131,6 +141,7 @@ class World {
     std::vector<TriangleData> triangles_;
     std::vector<media::Medium> media_;
     shading::Textures textures_;
+    std::vector<shading::CompiledMaterial> materials_; ///< as the scene's
     LightTable lights_;
     CameraRays camera_;
     media::MediumStack outside_;

@@ -35,12 +35,12 @@ std::unique_ptr<World const> World::commit(std::shared_ptr<scene::Scene const> s
 }
 
 void WorldBuilder::build(CommitOptions const& options) {
-    world_.textures_ = shading::Textures(scene_.textures, scene_.images);
     auto const& camera = scene_.cameras[size_t(scene_.contents.camera.index)];
     world_.camera_ = CameraRays(camera, scene_.images);
     if (options.size.x > 0) world_.camera_.resize(options.size);
     rectangle_ = make_rectangle();
     collect_instances();
+    compile_networks();
     build_kernel_scene(options);
     build_lights();
     media::Interior space;
@@ -113,7 +113,6 @@ void WorldBuilder::add_object(scene::Shape const& shape, int32_t instance, Inher
     object.emission = given.emission;
     object.normal_map = given.normal_map;
     object.alpha = given.alpha;
-    object.has_tangents = bool(given.normal_map);
     object.has_alpha = given.alpha != scene::Input<float>{1};
     object.priority = given.priority;
     object.source_instance = instance;
@@ -143,8 +142,35 @@ void WorldBuilder::add_object(scene::Shape const& shape, int32_t instance, Inher
                                             : baked_triangles(data, mesh->smooth, given.transform);
     } else {
         object.triangles = baked_triangles(rectangle_, false, given.transform);
+        object.is_rectangle = true;
     }
     world_.objects_.push_back(std::move(object));
+}
+
+/// Programs for all that objects show: what nothing uses is not compiled.
+void WorldBuilder::compile_networks() {
+    world_.textures_ = shading::Textures(scene_.textures.size());
+    world_.materials_.resize(scene_.materials.size());
+    std::vector<bool> done(scene_.materials.size(), false);
+    for (Object& o : world_.objects_) {
+        SourceLocation const& where = scene_.instance_locations[size_t(o.source_instance)];
+        auto prepare = [&](scene::TextureId id) { world_.textures_.prepare(compiler_, id, where); };
+        prepare(o.alpha.texture);
+        prepare(o.normal_map);
+        if (o.emission) prepare(scene_.emissions[size_t(o.emission.index)].emission.texture);
+        auto looks_at_geometry = [](shading::Needs needs) {
+            return !within(needs, shading::Needs::uv | shading::Needs::view);
+        };
+        o.has_tangents = o.normal_map || looks_at_geometry(world_.textures_.needs(o.alpha.texture));
+        if (!o.material) continue;
+        auto const index = size_t(o.material.index);
+        prepare(shading::interior_ior(scene_.materials[index]).texture);
+        if (!done[index])
+            world_.materials_[index] = shading::compile(scene_.materials[index], compiler_,
+                                                        scene_.material_locations[index]);
+        done[index] = true;
+        o.has_tangents |= looks_at_geometry(world_.materials_[index].program.needs);
+    }
 }
 
 int32_t WorldBuilder::add_medium(media::Medium const& medium) {

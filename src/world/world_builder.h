@@ -11,7 +11,8 @@ namespace weft::world {
 
 class WorldBuilder {
   public:
-    WorldBuilder(World& world, scene::Scene const& scene) : world_(world), scene_(scene) {}
+    WorldBuilder(World& world, scene::Scene const& scene)
+        : world_(world), scene_(scene), compiler_(scene) {}
     void build(CommitOptions const& options);
 
   private:
@@ -43,12 +44,17 @@ class WorldBuilder {
     RTCScene instanced_scene(Object const& object);
     void attach(RTCScene to, RTCGeometry geometry, uint32_t id, bool filtered);
 
+    void compile_networks();
     void build_lights();
+    /// Radiance averaged over the surface, roughly, for judging a light's power.
+    float mean_luminance(AreaLight const& light) const;
+    void prepare_environment(scene::EnvironmentLight const& light, SourceLocation const& where);
     void add_area_lights(std::vector<Light>& lights, std::vector<float>& weights);
     void count();
 
     World& world_;
     scene::Scene const& scene_;
+    shading::GraphCompiler compiler_;
     std::map<int32_t, int> mesh_uses_;                   ///< objects per mesh
     std::map<std::pair<int32_t, bool>, int32_t> shared_; ///< mesh, smooth -> triangles
     std::map<int32_t, RTCScene> mesh_scenes_;            ///< triangles -> kernel scene
@@ -56,8 +62,5 @@ class WorldBuilder {
     std::vector<std::pair<uint32_t, float>> area_objects_; ///< object, user weight
     std::shared_ptr<scene::Mesh const> rectangle_;
 };
-
-/// Radiance of a texture averaged over its square, for judging a light's power.
-float mean_luminance(shading::Textures const& textures, scene::Input<Color> const& input);
 
 } // namespace weft::world

@@ -1,0 +1,15 @@
+#include "shading/graph.h"
+
+#include "shading/node_functions.h"
+
+namespace weft::shading {
+
+void evaluate(Program const& program, SurfacePoint const& point, Values& values) {
+    NodeContext const context{point, values, program};
+    size_t index = 0;
+    for (Instruction const& instruction : program.instructions)
+        values[index++] =
+            match(instruction, [&](auto const& node) -> Vec3 { return run(node, context); });
+}
+
+} // namespace weft::shading

@@ -1,0 +1,107 @@
+// Compiled node networks: flat programs that a point runs.
+//
+// An instruction is the node's own struct, in which the index of a connected node has become the
+// index of the register that holds its result (GraphCompiler does that through `describe`, so no
+// code knows the nodes' parameters but the node's function itself). Registers hold three floats:
+// a number stands in all three, a vector2 leaves z at 0 or undefined. Instructions run in
+// topological order, each once per point, whatever number of inputs it feeds. What needs no point
+// was folded away. A program runs on the stack, without allocation or virtual calls.
+#pragma once
+
+#include <array>
+#include <tuple>
+#include <variant>
+#include <vector>
+
+#include "base/match.h"
+#include "scene/texture.h"
+#include "shading/image_lookup.h"
+#include "shading/surface_point.h"
+
+namespace weft::shading {
+
+/// Instructions of one program, and so the registers it needs. 128 nodes are 1.5 KB of stack.
+inline constexpr int kMaxRegisters = 128;
+
+/// What a program asks of a SurfacePoint, as a set of bits.
+enum class Needs : uint8_t {
+    nothing = 0,
+    uv = 1,
+    geometry = 2, ///< anything else that is the surface's: position, normal, tangents, attributes
+    view = 4,     ///< wo
+};
+constexpr Needs operator|(Needs a, Needs b) { return Needs(uint8_t(a) | uint8_t(b)); }
+constexpr Needs& operator|=(Needs& a, Needs b) { return a = a | b; }
+/// Whether `a` holds nothing beyond `b`.
+constexpr bool within(Needs a, Needs b) { return (uint8_t(a) & ~uint8_t(b)) == 0; }
+
+/// An image, all of whose parameters are its lookup's.
+struct ImageOp {
+    scene::Input<scene::SurfaceUv> texcoord;
+    ImageLookup lookup;
+};
+
+/// A colour as the number that is its channels' mean.
+struct MeanOp {
+    scene::Input<Color> in;
+};
+
+namespace detail {
+
+/// The instruction that a node becomes: itself, where nothing is said here.
+template <class Node>
+struct InstructionOf {
+    using type = Node;
+};
+template <>
+struct InstructionOf<scene::ImageTexture> {
+    using type = ImageOp;
+};
+
+template <class Variant>
+struct Instructions;
+template <class... Node>
+struct Instructions<std::variant<Node...>> {
+    using type = std::variant<typename InstructionOf<Node>::type..., MeanOp>;
+};
+
+} // namespace detail
+
+using Instruction = detail::Instructions<scene::Texture>::type;
+
+struct Program {
+    std::vector<Instruction> instructions; ///< each writes the register of its own index
+    Needs needs = Needs::nothing;
+};
+
+/// The results of a program: what the inputs of the struct it was compiled for read.
+class Values {
+  public:
+    float operator()(scene::Input<float> const& in) const {
+        return in.texture ? of(in.texture).x : in.value;
+    }
+    Color operator()(scene::Input<Color> const& in) const {
+        return in.texture ? color(of(in.texture)) : in.value;
+    }
+    Vec2 operator()(scene::Input<Vec2> const& in) const {
+        return in.texture ? Vec2(of(in.texture).x, of(in.texture).y) : in.value;
+    }
+    Vec3 operator()(scene::Input<Vec3> const& in) const {
+        return in.texture ? of(in.texture) : in.value;
+    }
+    Vec3 operator()(scene::Input<scene::AnyValue> const& in) const {
+        return in.texture ? of(in.texture) : in.value.v;
+    }
+    Vec3& operator[](size_t index) { return registers_[index]; }
+
+  private:
+    static Color color(Vec3 const& v) { return {v.x, v.y, v.z}; }
+    Vec3 const& of(scene::TextureId id) const { return registers_[size_t(id.index)]; }
+
+    std::array<Vec3, kMaxRegisters> registers_; // not initialised: every one is written first
+};
+
+/// Runs the program at `point`.
+void evaluate(Program const& program, SurfacePoint const& point, Values& values);
+
+} // namespace weft::shading
