@@ -15,17 +15,26 @@
 
 #include "base/frame.h"
 #include "base/match.h"
+#include "lobes/burley_diffuse.h"
+#include "lobes/clearcoat.h"
+#include "lobes/diffuse_transmission.h"
+#include "lobes/disney_sheen.h"
 #include "lobes/lambert.h"
 #include "lobes/microfacet_dielectric.h"
 #include "lobes/microfacet_reflection.h"
+#include "lobes/oren_nayar.h"
+#include "lobes/sheen.h"
 #include "lobes/specular_dielectric.h"
 #include "lobes/specular_reflection.h"
+#include "lobes/transparent.h"
 
 namespace weft::lobes {
 
 /// Every kind of lobe. All are trivially copyable and destructible.
-using LobeVariant = std::variant<Lambert, SpecularReflection, SpecularDielectric, GgxReflection,
-                                 BeckmannReflection, GgxDielectric, BeckmannDielectric>;
+using LobeVariant =
+    std::variant<Lambert, SpecularReflection, SpecularDielectric, GgxReflection, BeckmannReflection,
+                 GgxDielectric, BeckmannDielectric, OrenNayar, BurleyDiffuse, DiffuseTransmission,
+                 Transparent, Sheen, DisneySheen, Clearcoat>;
 
 struct Lobe {
     Color weight;   ///< multiplies the kind's value

@@ -17,6 +17,9 @@ struct Configuration {
     bool isotropic = true;
     /// Relative error that rounding of directions (some 1e-6 in all) makes in the value.
     float resolution = 1e-4f;
+    bool reciprocal = true;
+    /// Where the albedo is 1, the density follows the value and no sample weighs more than 1.
+    bool density_is_value = true;
 };
 
 template <class L>
@@ -109,6 +112,65 @@ inline std::vector<Configuration<GgxDielectric>> test_configurations<GgxDielectr
 template <>
 inline std::vector<Configuration<BeckmannDielectric>> test_configurations<BeckmannDielectric>() {
     return dielectrics<Beckmann>("BeckmannDielectric");
+}
+
+template <>
+inline std::vector<Configuration<OrenNayar>> test_configurations<OrenNayar>() {
+    std::vector<Configuration<OrenNayar>> all;
+    for (float const roughness : {0.f, 0.1f, 0.5f, 1.f})
+        for (Color const& rho : {Color(1), Color(0.9f, 0.4f, 0.05f)})
+            all.push_back({.name = "OrenNayar roughness " + std::to_string(roughness) + " rho " +
+                                   std::to_string(rho.g),
+                           .lobe = {rho, roughness},
+                           .density_is_value = false});
+    return all;
+}
+
+template <>
+inline std::vector<Configuration<BurleyDiffuse>> test_configurations<BurleyDiffuse>() {
+    std::vector<Configuration<BurleyDiffuse>> all;
+    for (float const roughness : {0.f, 0.3f, 0.5f, 0.77f, 1.f})
+        all.push_back({.name = "BurleyDiffuse roughness " + std::to_string(roughness),
+                       .lobe = {roughness},
+                       .density_is_value = false});
+    return all;
+}
+
+template <>
+inline std::vector<Configuration<DiffuseTransmission>> test_configurations<DiffuseTransmission>() {
+    return {{"DiffuseTransmission", {}}};
+}
+
+template <>
+inline std::vector<Configuration<Transparent>> test_configurations<Transparent>() {
+    return {{"Transparent", {}}};
+}
+
+template <>
+inline std::vector<Configuration<Sheen>> test_configurations<Sheen>() {
+    std::vector<Configuration<Sheen>> all;
+    for (float const roughness : {0.f, 0.1f, 0.25f, 0.5f, 0.8f, 1.f})
+        all.push_back({.name = "Sheen roughness " + std::to_string(roughness),
+                       .lobe = {roughness},
+                       .reciprocal = false});
+    return all;
+}
+
+template <>
+inline std::vector<Configuration<DisneySheen>> test_configurations<DisneySheen>() {
+    return {{"DisneySheen", {}}};
+}
+
+template <>
+inline std::vector<Configuration<Clearcoat>> test_configurations<Clearcoat>() {
+    std::vector<Configuration<Clearcoat>> all;
+    for (float const alpha : {1e-3f, 0.02f, 0.1f, 0.25f, 0.5f})
+        for (float const ior : {1.5f, 2.5f})
+            all.push_back(
+                {.name = "Clearcoat alpha " + std::to_string(alpha) + " ior " + std::to_string(ior),
+                 .lobe = Clearcoat(alpha, ior),
+                 .resolution = std::max(1e-4f, 1e-6f / alpha)});
+    return all;
 }
 
 /// The lobe that light meets on its way back, for wo on the other side.

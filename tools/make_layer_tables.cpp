@@ -1,0 +1,210 @@
+// Writes src/lobes/layer_tables.h: albedos of Burley's lobes, and the fit of the sheen layer, on
+// the grids that the lobes' headers declare. Run it again whenever one of them changes (some
+// minutes):
+//     g++ -std=c++20 -O2 -I/usr/include/Imath -Isrc tools/make_layer_tables.cpp -o
+//     make_layer_tables
+//     ./make_layer_tables > src/lobes/layer_tables.h
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "base/hash.h"
+#include "lobes/burley_diffuse.h"
+#include "lobes/clearcoat.h"
+#include "lobes/disney_sheen.h"
+#include "lobes/sheen.h"
+
+namespace {
+
+using namespace weft;
+using namespace weft::lobes;
+
+/// Prints numbers, comma after comma, in lines of at most 100 columns.
+class Array {
+  public:
+    Array(char const* name, size_t size) {
+        std::printf("inline constexpr float %s[%zu] = {\n", name, size);
+    }
+    ~Array() {
+        flush();
+        std::printf("};\n");
+    }
+    void value(double x) {
+        char text[32];
+        std::snprintf(text, sizeof text, "%#.5gf,", x);
+        if (line_.size() + std::strlen(text) > 100) flush();
+        line_ += text;
+    }
+
+  private:
+    void flush() {
+        if (!line_.empty()) std::printf("%s\n", line_.c_str());
+        line_.clear();
+    }
+    std::string line_;
+};
+
+float node(int i, int nodes) { return float(i) / float(nodes - 1); }
+
+/// wo at a cosine; the end of the axis stands for a limit that lobes do not take.
+Vec3 direction(float cosine) {
+    float const c = std::max(cosine, 1e-4f);
+    return {safe_sqrt(1 - c * c), 0, c};
+}
+
+Vec2 hammersley(uint32_t i, uint32_t n) {
+    uint32_t r = i;
+    r = (r << 16) | (r >> 16);
+    r = ((r & 0x00ff00ffu) << 8) | ((r & 0xff00ff00u) >> 8);
+    r = ((r & 0x0f0f0f0fu) << 4) | ((r & 0xf0f0f0f0u) >> 4);
+    r = ((r & 0x33333333u) << 2) | ((r & 0xccccccccu) >> 2);
+    r = ((r & 0x55555555u) << 1) | ((r & 0xaaaaaaaau) >> 1);
+    return {(float(i) + 0.5f) / float(n), float(double(r) * 0x1p-32 + 0.5 / n)};
+}
+
+template <class L>
+double integrate(L const& lobe, Vec3 const& wo) {
+    constexpr uint32_t n = 1 << 16;
+    double sum = 0;
+    for (uint32_t i = 0; i < n; ++i) {
+        Vec2 const u = hammersley(i, n);
+        Vec3 const wi = lobe.sample(wo, {u.x, u.y, 0});
+        LobeValue const v = wi == Vec3(0) ? LobeValue{} : lobe.eval(wo, wi);
+        if (v.pdf > 0) sum += v.f.g / v.pdf;
+    }
+    return sum / n;
+}
+
+void write_burley_diffuse() {
+    using namespace burley_grid;
+    Array out("burley_diffuse", size_t(roughnesses) * cosines);
+    for (int r = 0; r < roughnesses; ++r)
+        for (int c = 0; c < cosines; ++c)
+            out.value(integrate(BurleyDiffuse{node(r, roughnesses)},
+                                direction(cosine_at(node(c, cosines)))));
+}
+
+void write_disney_sheen() {
+    Array out("disney_sheen", disney_sheen_cosines);
+    for (int c = 0; c < disney_sheen_cosines; ++c)
+        out.value(integrate(DisneySheen{}, direction(node(c, disney_sheen_cosines))));
+}
+
+/// F is linear in its value at normal incidence: the albedo of F = 1, and of F with f0 = 0.
+void write_clearcoat(char const* name, bool white) {
+    using namespace clearcoat_grid;
+    Array out(name, size_t(alphas) * cosines);
+    for (int a = 0; a < alphas; ++a)
+        for (int c = 0; c < cosines; ++c)
+            out.value(integrate(Clearcoat(alpha_at(node(a, alphas)), white ? 1e9f : 1.f),
+                                direction(cosine_at(node(c, cosines)))));
+}
+
+/// A normal of the flakes seen along `w`: cosine-weighted over the half of the unit sphere that is
+/// visible once the ellipsoid diag(1, 1, cross_section) is stretched to it (Heitz et al. 2015).
+Vec3d visible_flake(Vec3d const& w, double cross_section, Rng& rng) {
+    Vec3d const v = normalize(Vec3d(w.x, w.y, cross_section * w.z));
+    Vec3 const h = square_to_cosine_hemisphere(rng.next2());
+    double const sign = std::copysign(1.0, v.z), a = -1 / (sign + v.z), b = v.x * v.y * a;
+    Vec3d const s(1 + sign * v.x * v.x * a, sign * b, -sign * v.x);
+    Vec3d const t(b, sign + v.y * v.y * a, -v.y);
+    Vec3d const q = s * double(h.x) + t * double(h.y) + v * double(h.z);
+    return normalize(Vec3d(q.x, q.y, cross_section * q.z));
+}
+
+/// Walks through the layer from above; the direction out of its top, or the zero vector.
+Vec3d walk(Vec3d const& wo, double cross_section, Rng& rng) {
+    Vec3d back = wo; // the way the light came from
+    double height = 1;
+    for (;;) {
+        double const sine2 = back.x * back.x + back.y * back.y;
+        double const extinction = std::sqrt(sine2 + std::pow(cross_section * back.z, 2));
+        height -= -std::log(1 - double(rng.next())) / extinction * back.z;
+        if (height < 0) return Vec3d(0);
+        if (height > 1) return -back;
+        Vec3d const m = visible_flake(back, cross_section, rng);
+        back = normalize(back - m * (2 * dot(back, m)));
+    }
+}
+
+/// Of a: what is narrower hugs the horizon within its own width of 3 degrees, and only costs
+/// samples.
+constexpr float kLeastA = 0.05f;
+
+/// In slopes (x, y) / z the lobe is a bivariate Student distribution of 2 degrees of freedom, with
+/// mean (-b / a, 0) and scale 1 / a: expectation maximisation for its two parameters.
+SheenCoefficients fit(std::vector<Vec3d> const& directions, double albedo) {
+    double mean = 0, a2 = 1;
+    for (int iteration = 0; iteration < 300; ++iteration) {
+        double weights = 0, weighted = 0, spread = 0;
+        for (Vec3d const& d : directions) {
+            double const x = d.x / d.z, y = d.y / d.z;
+            double const w = 2 / (1 + a2 * (std::pow(x - mean, 2) + y * y));
+            weights += w;
+            weighted += w * x;
+            spread += w * (std::pow(x - mean, 2) + y * y);
+        }
+        double const next_a2 = double(directions.size()) / spread;
+        double const next_mean = weighted / weights;
+        bool const done = std::abs(next_a2 / a2 - 1) + std::abs(next_mean - mean) < 1e-6;
+        a2 = next_a2;
+        mean = next_mean;
+        if (done) break;
+    }
+    double const a = std::sqrt(a2);
+    return {float(albedo), std::max(float(a), kLeastA), float(-mean * a)};
+}
+
+std::vector<SheenCoefficients> fit_sheen() {
+    using namespace sheen_grid;
+    constexpr int walks = 1 << 18, most_walks = 1 << 22;
+    constexpr size_t enough = 1 << 13; ///< directions to fit
+    std::vector<SheenCoefficients> all;
+    for (int r = 0; r < roughnesses; ++r)
+        for (int c = 0; c < cosines; ++c) {
+            double const cross_section = std::pow(std::max(node(r, roughnesses), 0.01f), 2);
+            Vec3 const wo = direction(cosine_at(node(c, cosines)));
+            Rng rng(all.size());
+            std::vector<Vec3d> out;
+            int n = 0;
+            for (; n < walks || (n < most_walks && out.size() < enough); ++n) {
+                Vec3d const d = walk(Vec3d(wo.x, wo.y, wo.z), cross_section, rng);
+                if (d.z > 0) out.push_back(d);
+            }
+            // Where next to nothing returns, its shape is taken from the last node that has one.
+            SheenCoefficients const k =
+                out.size() < 500 && !all.empty() ? all.back() : fit(out, double(out.size()) / n);
+            all.push_back({float(double(out.size()) / n), k.a, k.b});
+        }
+    return all;
+}
+
+void write_sheen() {
+    std::vector<SheenCoefficients> const all = fit_sheen();
+    auto const write = [&](char const* name, float SheenCoefficients::*member) {
+        Array out(name, all.size());
+        for (SheenCoefficients const& k : all) out.value(k.*member);
+    };
+    write("sheen_albedo", &SheenCoefficients::albedo);
+    write("sheen_a", &SheenCoefficients::a);
+    write("sheen_b", &SheenCoefficients::b);
+}
+
+} // namespace
+
+int main() {
+    std::printf(
+        "// Written by tools/make_layer_tables.cpp; the lobes' headers declare the axes. All "
+        "but\n// disney_sheen are [roughness or alpha][cosine].\n"
+        "// clang-format off\n"
+        "#pragma once\n\n"
+        "namespace weft::lobes::layer_tables {\n\n");
+    write_burley_diffuse();
+    write_disney_sheen();
+    write_clearcoat("clearcoat_white", true);
+    write_clearcoat("clearcoat_grazing", false);
+    write_sheen();
+    std::printf("\n} // namespace weft::lobes::layer_tables\n");
+}
