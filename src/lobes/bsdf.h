@@ -19,6 +19,7 @@
 #include "lobes/clearcoat.h"
 #include "lobes/diffuse_transmission.h"
 #include "lobes/disney_sheen.h"
+#include "lobes/hair.h"
 #include "lobes/lambert.h"
 #include "lobes/microfacet_dielectric.h"
 #include "lobes/microfacet_reflection.h"
@@ -34,7 +35,7 @@ namespace weft::lobes {
 using LobeVariant =
     std::variant<Lambert, SpecularReflection, SpecularDielectric, GgxReflection, BeckmannReflection,
                  GgxDielectric, BeckmannDielectric, OrenNayar, BurleyDiffuse, DiffuseTransmission,
-                 Transparent, Sheen, DisneySheen, Clearcoat>;
+                 Transparent, Sheen, DisneySheen, Clearcoat, Hair>;
 
 struct Lobe {
     Color weight;   ///< multiplies the kind's value

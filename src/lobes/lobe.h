@@ -10,6 +10,10 @@
 // Russian roulette can look at the path's power instead. `albedo` is a fraction of power, in
 // [0, 1]: the integral of f * eta_scale over wi.
 //
+// A fibre has no side: its lobe scatters over the whole sphere, its x axis is the fibre's tangent,
+// and f carries the cosine to the normal plane, sqrt(1 - wi.x^2), instead of |wi.z|; z only tells
+// reflection from transmission. hair.h says more.
+//
 // Lobes are white where a tint can live in the list's weight (see bsdf.h).
 #pragma once
 

@@ -173,6 +173,32 @@ inline std::vector<Configuration<Clearcoat>> test_configurations<Clearcoat>() {
     return all;
 }
 
+template <>
+inline std::vector<Configuration<Hair>> test_configurations<Hair>() {
+    struct Parameters {
+        float beta_m, beta_n, h;
+        Color sigma_a{};
+        float eta = 1.55f, alpha = radians(2.f);
+    };
+    std::vector<Configuration<Hair>> all;
+    for (Parameters const& p : std::vector<Parameters>{
+             {0.3f, 0.3f, 0.4f},
+             {0.05f, 0.2f, -0.7f},
+             {0.15f, 0.06f, 0},
+             {1, 1, 0.9f},
+             {0.6f, 0.9f, -1, Color(0.1f, 0.5f, 3)},
+             {0.3f, 0.3f, 0.99f, Color(0.2f, 0.4f, 0.8f), 1.4f, radians(-3.f)},
+             {0.25f, 0.4f, -0.3f, sigma_a_from_melanin(8, 0), 1.55f, radians(5.f)}}) {
+        all.push_back({.name = "Hair beta_m " + std::to_string(p.beta_m) + " beta_n " +
+                               std::to_string(p.beta_n) + " h " + std::to_string(p.h),
+                       .lobe = Hair({p.sigma_a, p.beta_m, p.beta_n, p.eta, p.alpha}, p.h),
+                       .isotropic = true,
+                       .resolution = 1e-3f,
+                       .reciprocal = false});
+    }
+    return all;
+}
+
 /// The lobe that light meets on its way back, for wo on the other side.
 template <class L>
 L seen_from_behind(L const& lobe) {
