@@ -33,7 +33,7 @@ class Clearcoat {
 
     /// `alpha`: the width of D, clamped to [1e-3, 0.5]; Disney's run from 0.1 (satin) to 1e-3
     /// (gloss). `ior` in [1, 3] relative to what is outside: with the fixed shadowing, a wide D of
-    /// ior beyond 5 would give back more than it receives.
+    /// ior about 4 would give back more than it receives.
     explicit Clearcoat(float alpha, float ior = 1.5f)
         : alpha2_(square(std::min(std::max(alpha, min_alpha), max_alpha))), f0_(fresnel_f0(ior)),
           log_alpha2_(std::log(alpha2_)) {}
