@@ -24,7 +24,7 @@ inline float cosine_coordinate(float c) { return std::sqrt(c); }
 inline float cosine_at(float coordinate) { return square(coordinate); }
 } // namespace clearcoat_grid
 
-/// From a table, to 0.005; cos_o in [0, 1].
+/// From a table: mean error 0.002, worst 0.03 (ior 2.5); cos_o in [0, 1].
 float clearcoat_albedo(float alpha, float f0, float cos_o);
 
 class Clearcoat {
