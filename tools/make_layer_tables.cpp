@@ -134,8 +134,8 @@ Vec3d walk(Vec3d const& wo, double cross_section, Rng& rng) {
 constexpr float kLeastA = 0.05f;
 
 /// In slopes (x, y) / z the lobe is a bivariate Student distribution of 2 degrees of freedom, with
-/// mean (-b / a, 0) and scale 1 / a: expectation maximisation for its two parameters.
-SheenCoefficients fit(std::vector<Vec3d> const& directions, double albedo) {
+/// mean (-b / a, 0) and scale 1 / a: expectation maximisation for its two parameters; R is 1.
+SheenCoefficients fit(std::vector<Vec3d> const& directions) {
     double mean = 0, a2 = 1;
     for (int iteration = 0; iteration < 300; ++iteration) {
         double weights = 0, weighted = 0, spread = 0;
@@ -154,29 +154,29 @@ SheenCoefficients fit(std::vector<Vec3d> const& directions, double albedo) {
         if (done) break;
     }
     double const a = std::sqrt(a2);
-    return {float(albedo), std::max(float(a), kLeastA), float(-mean * a)};
+    return {1, std::max(float(a), kLeastA), float(-mean * a)};
 }
 
 std::vector<SheenCoefficients> fit_sheen() {
     using namespace sheen_grid;
     constexpr int walks = 1 << 18, most_walks = 1 << 22;
     constexpr size_t enough = 1 << 13; ///< directions to fit
-    std::vector<SheenCoefficients> all;
-    for (int r = 0; r < roughnesses; ++r)
+    std::vector<SheenCoefficients> all(size_t(roughnesses) * cosines);
+    for (int r = roughnesses; r-- > 0;)
         for (int c = 0; c < cosines; ++c) {
             double const cross_section = std::pow(std::max(node(r, roughnesses), 0.01f), 2);
             Vec3 const wo = direction(cosine_at(node(c, cosines)));
-            Rng rng(all.size());
+            size_t const index = size_t(r) * cosines + size_t(c);
+            Rng rng(index);
             std::vector<Vec3d> out;
             int n = 0;
             for (; n < walks || (n < most_walks && out.size() < enough); ++n) {
                 Vec3d const d = walk(Vec3d(wo.x, wo.y, wo.z), cross_section, rng);
                 if (d.z > 0) out.push_back(d);
             }
-            // Where next to nothing returns, its shape is taken from the last node that has one.
-            SheenCoefficients const k =
-                out.size() < 500 && !all.empty() ? all.back() : fit(out, double(out.size()) / n);
-            all.push_back({float(double(out.size()) / n), k.a, k.b});
+            // Where next to nothing returns, it has the shape of the next rougher layer.
+            all[index] = out.size() < 500 ? all[index + cosines] : fit(out);
+            all[index].albedo = float(double(out.size()) / n);
         }
     return all;
 }

@@ -17,7 +17,8 @@
 
 namespace weft::lobes {
 
-/// The albedo of the limited model; cos_o and roughness in [0, 1]. From a table, to 0.002.
+/// The albedo of the limited model; cos_o and roughness in [0, 1]. From a table: mean error 0.001,
+/// worst 0.013.
 float burley_diffuse_albedo(float roughness, float cos_o);
 
 /// The grid of that table; coordinates in [0, 1], roughness being its own.

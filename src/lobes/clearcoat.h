@@ -24,7 +24,7 @@ inline float cosine_coordinate(float c) { return std::sqrt(c); }
 inline float cosine_at(float coordinate) { return square(coordinate); }
 } // namespace clearcoat_grid
 
-/// From a table, to 0.005; cos_o in [0, 1].
+/// From a table: mean error 0.002, worst 0.03 (ior 2.5); cos_o in [0, 1].
 float clearcoat_albedo(float alpha, float f0, float cos_o);
 
 class Clearcoat {
@@ -33,7 +33,7 @@ class Clearcoat {
 
     /// `alpha`: the width of D, clamped to [1e-3, 0.5]; Disney's run from 0.1 (satin) to 1e-3
     /// (gloss). `ior` in [1, 3] relative to what is outside: with the fixed shadowing, a wide D of
-    /// ior beyond 5 would give back more than it receives.
+    /// ior about 4 would give back more than it receives.
     explicit Clearcoat(float alpha, float ior = 1.5f)
         : alpha2_(square(std::min(std::max(alpha, min_alpha), max_alpha))), f0_(fresnel_f0(ior)),
           log_alpha2_(std::log(alpha2_)) {}

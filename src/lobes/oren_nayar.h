@@ -23,7 +23,8 @@ class OrenNayar {
     /// `rho`: the colour of a single bounce, each channel in [0, 1]; with roughness 0 the albedo,
     /// and little more saturated than it otherwise. `roughness` in [0, 1]; 0 is Lambert.
     OrenNayar(Color const& rho, float roughness)
-        : rho_(rho), roughness_(roughness), scale_(1 / (1 + kC1 * roughness)) {}
+        : rho_(rho), roughness_(roughness), scale_(1 / (1 + kC1 * roughness)),
+          uniform_(std::pow(roughness, 0.1f)) {}
 
     static constexpr LobeFlags flags() { return LobeFlags::Reflection | LobeFlags::Diffuse; }
 
@@ -36,11 +37,11 @@ class OrenNayar {
         float const multiple =
             scale_ * roughness_ * lack(wo.z) * lack(wi.z) * (kInvPi / (kC1 - kMeanG)) * wi.z;
         return {rho_ * std::max(single, 0.f) + multiple_color() * multiple,
-                density(Steering(wo, roughness_), wo, wi)};
+                density(Steering(wo, roughness_, uniform_), wi)};
     }
 
     Vec3 sample(Vec3 const& wo, Vec3 const& u) const {
-        Steering const st(wo, roughness_);
+        Steering const st(wo, roughness_, uniform_);
         if (u.z < st.uniform) {
             float const r = safe_sqrt(1 - u.x * u.x), phi = 2 * kPi * u.y;
             return {r * std::cos(phi), r * std::sin(phi), u.x};
@@ -82,7 +83,7 @@ class OrenNayar {
     /// maps clipped cosine directions to wi, and the share of uniform sampling (paper, listing 2).
     struct Steering {
         float a, b, c, d, clip, uniform, cos_phi, sin_phi;
-        Steering(Vec3 const& wo, float r) {
+        Steering(Vec3 const& wo, float r, float uniform_scale) {
             float const m = wo.z;
             a = 1 + r * (0.303392f + (-0.518982f + 0.111709f * m) * m +
                          (-0.276266f + 0.335918f * m) * r);
@@ -95,15 +96,15 @@ class OrenNayar {
                          0.f);
             // The part of the unit disk whose image lies above the horizon.
             clip = 0.5f * (1 + 1 / std::sqrt(d * d + 1));
-            uniform = std::pow(r, 0.1f) *
-                      (0.162925f + m * (-0.372058f + (0.538233f - 0.290822f * m) * m));
+            uniform =
+                uniform_scale * (0.162925f + m * (-0.372058f + (0.538233f - 0.290822f * m) * m));
             float const s = std::sqrt(wo.x * wo.x + wo.y * wo.y);
             cos_phi = s > 0 ? wo.x / s : 1.f;
             sin_phi = s > 0 ? wo.y / s : 0.f;
         }
     };
 
-    static float density(Steering const& st, Vec3 const&, Vec3 const& wi) {
+    static float density(Steering const& st, Vec3 const& wi) {
         float const x = st.cos_phi * wi.x + st.sin_phi * wi.y;
         float const y = st.cos_phi * wi.y - st.sin_phi * wi.x;
         // The adjugate maps wi back up to a factor of the determinant.
@@ -114,7 +115,9 @@ class OrenNayar {
     }
 
     Color rho_;
-    float roughness_, scale_; ///< scale_ = A
+    float roughness_;
+    float scale_;   ///< A
+    float uniform_; ///< roughness^0.1
 };
 
 static_assert(SmoothLobe<OrenNayar>);
