@@ -77,7 +77,7 @@ void WorldBuilder::add_area_lights(std::vector<Light>& lights, std::vector<float
             return lights::MeshEmitter(std::move(positions), std::move(triangles), data.source->uvs,
                                        object.to_world.determinant() < 0);
         };
-        AreaLight light{make(), object.emission, object.alpha};
+        AreaLight light{make(), object.emission, object.alpha, int32_t(index)};
         float const area = match(light.emitter, [](auto const& e) { return e.area(); });
         object.light = int32_t(lights.size());
         weights.push_back(weight * kPi * area *

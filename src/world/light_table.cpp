@@ -50,6 +50,7 @@ LightSample LightTable::sample_light(AreaLight const& l, Vec3 const& ref, Vec2 u
     sample.radiance = textures_->at(emissions_[size_t(l.emission.index)].emission, s.uv) *
                       textures_->at(l.alpha, s.uv);
     sample.pdf = s.pdf;
+    sample.object = l.object;
     // As far off the light as a ray that leaves it would start.
     Vec3 const extent =
         abs(s.p) + Vec3(std::sqrt(match(l.emitter, [](auto const& e) { return e.area(); })));

@@ -21,6 +21,7 @@ struct AreaLight {
     lights::Emitter emitter;
     scene::EmissionId emission;
     scene::Input<float> alpha{1}; ///< rays that look for it miss it where it is not there
+    int32_t object = -1;          ///< of the world
 };
 
 struct EnvironmentLight {
@@ -40,6 +41,7 @@ struct LightSample {
     bool delta = false; ///< `pdf` is the chance of the light alone
     float p_error = 0;  ///< how near to the light a shadow ray may go
     int32_t light = -1;
+    int32_t object = -1; ///< whose surface it is; -1: none
 };
 
 class LightTable {

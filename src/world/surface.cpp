@@ -131,7 +131,7 @@ media::Interior World::interior(uint32_t object, Vec2 uv) const {
         o.material
             ? shading::interior_ior(scene_->materials[size_t(o.material.index)], textures_, uv)
             : 1;
-    return {object, o.priority, ior, o.medium};
+    return {object, o.rank, ior, o.medium};
 }
 
 } // namespace weft::world

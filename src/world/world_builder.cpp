@@ -41,6 +41,7 @@ void WorldBuilder::build(CommitOptions const& options) {
     if (options.size.x > 0) world_.camera_.resize(options.size);
     rectangle_ = make_rectangle();
     collect_instances();
+    rank_boundaries();
     build_kernel_scene(options);
     build_lights();
     media::Interior space;
