@@ -11,6 +11,7 @@ struct SurfacePoint {
     Vec3 ng{0, 0, 1};      ///< unit geometric normal of the front
     Vec3 ns{0, 0, 1};      ///< unit shading normal of the front
     Vec3 dpdu{0, 0, 0};    ///< along growing u, any length; 0 where there are no uvs
+    Vec3 dpdv{0, 0, 0};    ///< along growing v, likewise
     Vec2 uv{0, 0};
     float t = 0;            ///< distance from the ray's origin in units of its direction
     uint32_t object = 0;    ///< which object of the world

@@ -54,12 +54,16 @@ void World::mesh_point(Object const& object, Hit const& hit, shading::SurfacePoi
     if (auto const& uvs = data.source->uvs; !uvs.empty()) {
         Vec2 const d1 = uvs[v[1]] - uvs[v[0]], d2 = uvs[v[2]] - uvs[v[0]];
         float const determinant = d1.x * d2.y - d1.y * d2.x;
-        if (determinant != 0) point.dpdu = (e1 * d2.y - e2 * d1.y) * (1 / determinant);
+        if (determinant != 0) {
+            point.dpdu = (e1 * d2.y - e2 * d1.y) * (1 / determinant);
+            point.dpdv = (e2 * d1.x - e1 * d2.x) * (1 / determinant);
+        }
     }
     if (object.instanced) {
         normal = object.to_object.transposed(normal);
         if (!data.normals.empty()) point.ns = object.to_object.transposed(point.ns);
         point.dpdu = object.to_world.vector(point.dpdu);
+        point.dpdv = object.to_world.vector(point.dpdv);
         point.p = object.to_world.point(point.p);
         point.p_error =
             absolute_vector(object.to_world, point.p_error) + abs(object.to_world.origin);
@@ -83,6 +87,9 @@ void World::sphere_point(Object const& object, Ray const& ray, Hit const& hit,
     point.ng = point.ns = normalize(object.to_object.transposed(local));
     point.uv = lights::direction_to_uv(local);
     point.dpdu = object.to_world.vector(Vec3(local.z, 0, -local.x));
+    // Times the sine of the angle to the pole, so that it stays finite there.
+    point.dpdv =
+        object.to_world.vector(Vec3(local.x * local.y, local.y * local.y - 1, local.z * local.y));
     point.p_error =
         (absolute_vector(object.to_world, Vec3(1)) + abs(object.to_world.origin)) * kRounding;
 }
@@ -91,7 +98,10 @@ void World::apply_normal_map(Object const& object, shading::SurfacePoint& point)
     Color const c = textures_.at(object.normal_map, point.uv);
     Vec3 const n(2 * c.r - 1, 2 * c.g - 1, 2 * c.b - 1);
     if (!(length_squared(n) > 0)) return;
-    Vec3 const mapped = normalize(Frame(point.ns, point.dpdu).to_world(n));
+    Frame frame(point.ns, point.dpdu);
+    // Red goes along u and green along v, also where uvs or the transform mirror.
+    if (dot(frame.t, point.dpdv) < 0) frame.t = -frame.t;
+    Vec3 const mapped = normalize(frame.to_world(n));
     if (dot(mapped, point.ng) > 0) point.ns = mapped;
 }
 
