@@ -1,6 +1,16 @@
 #include "film/film.h"
 
+#include <algorithm>
+
 namespace weft::film {
+
+uint32_t Film::least_samples() const {
+    auto const fewest =
+        std::min_element(pixels_.begin(), pixels_.end(), [](PixelSum const& a, PixelSum const& b) {
+            return a.samples < b.samples;
+        });
+    return fewest == pixels_.end() ? 0 : fewest->samples;
+}
 
 image::Image Film::mean() const {
     image::Image image = image::make_image(region_.width(), region_.height(), 3);

@@ -42,6 +42,8 @@ class Film {
         return pixels_[size_t(y - region_.from.y) * size_t(region_.width()) +
                        size_t(x - region_.from.x)];
     }
+    /// The number of samples of the pixel that has fewest.
+    uint32_t least_samples() const;
     /// The mean of each pixel's samples, RGB; black where there is none yet.
     image::Image mean() const;
 

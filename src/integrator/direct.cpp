@@ -11,9 +11,22 @@ lobes::LobeValue ScatterPoint::eval(Vec3 const& wi) const {
     return {Color(phase), phase};
 }
 
+namespace {
+
+/// Whether a surface light, met by a ray with these media, lies inside of something that hides it.
+bool is_hidden(world::World const& world, int32_t object, media::MediumStack const& media) {
+    if (object < 0 || !world.object(uint32_t(object)).may_be_hidden) return false;
+    return !media.is_visible(uint32_t(object), world.object(uint32_t(object)).rank);
+}
+
+} // namespace
+
 void direct(world::World const& world, scene::Strategy strategy, PathState const& path,
-            ScatterPoint const& point, Vec3 const& u, film::SampleSink& sink) {
-    world::LightSample const light = world.lights().sample(point.p, point.n, u);
+            ScatterPoint const& point, sampling::SampleStream const& u, uint32_t vertex,
+            film::SampleSink& sink) {
+    using sampling::Dimension;
+    world::LightSample const light =
+        world.lights().sample(point.p, point.n, u.get3(Dimension::Light, vertex));
     // What rays can find is left to them where the strategy says so.
     if (!(light.pdf > 0) || (strategy == scene::Strategy::bsdf && !light.delta)) return;
     lobes::LobeValue const value = point.eval(light.wi);
@@ -38,8 +51,10 @@ void direct(world::World const& world, scene::Strategy strategy, PathState const
             point.surface &&
             dot(light.wi, point.surface->ng) * dot(point.wo, point.surface->ng) < 0;
         if (crosses) cross_boundary(world, *point.surface, light.wi, media);
-        through *= media_transmittance(world, shadow, media);
-        if (is_black(through)) return;
+        uint32_t const alpha_seed =
+            world.has_alpha() ? u.walk(Dimension::Light, vertex).next_uint() : 0;
+        through *= media_transmittance(world, shadow, media, alpha_seed);
+        if (is_black(through) || is_hidden(world, light.object, media)) return;
     }
     bool const combine = strategy == scene::Strategy::mis && !light.delta;
     float const weight = combine ? power_heuristic(light.pdf, value.pdf) : 1;

@@ -14,10 +14,11 @@ inline float power_heuristic(float pdf, float other) {
     return 1 / (1 + ratio * ratio);
 }
 
-/// One light sample at `point`, added to `sink`: light tree, shadow ray through transparent
-/// surfaces and media, MIS weight.
+/// One light sample at `point`, vertex number `vertex`, added to `sink`: choice of light, shadow
+/// ray through transparent surfaces and media, MIS weight.
 void direct(world::World const& world, scene::Strategy strategy, PathState const& path,
-            ScatterPoint const& point, Vec3 const& u, film::SampleSink& sink);
+            ScatterPoint const& point, sampling::SampleStream const& u, uint32_t vertex,
+            film::SampleSink& sink);
 
 /// The weight of light of density `light_pdf` that the ray of `path` found by itself.
 float found_weight(scene::Strategy strategy, PathState const& path, float light_pdf);

@@ -21,17 +21,19 @@ void cross_boundary(world::World const& world, shading::SurfacePoint const& poin
         stack.leave(point.object);
 }
 
-Color media_transmittance(world::World const& world, world::Ray ray, media::MediumStack stack) {
+Color media_transmittance(world::World const& world, world::Ray ray, media::MediumStack& stack,
+                          uint32_t alpha_seed) {
     Color through(1);
     for (int crossing = 0; crossing < kMaxCrossings; ++crossing) {
-        world::Hit const hit = world.intersect(ray);
+        world::Hit const hit = world.intersect_passable(ray, alpha_seed);
         int32_t const medium = stack.current().medium;
         if (medium >= 0)
             through *= media::transmittance(world.medium(medium), std::min(hit.t, ray.t_max));
         if (!hit || is_black(through)) return through;
         shading::SurfacePoint const point = world.surface(ray, hit);
-        // Other surfaces are passed where their opacity leaves a hole: that leads into nothing.
-        if (world.object(hit.object).is_null) cross_boundary(world, point, ray.direction, stack);
+        world::Object const& object = world.object(hit.object);
+        if (!object.is_null && stack.is_visible(hit.object, object.rank)) return Color(0);
+        cross_boundary(world, point, ray.direction, stack);
         Vec3 const origin = shading::offset_origin(point, ray.direction);
         ray.t_max -= dot(origin - ray.origin, ray.direction);
         ray.origin = origin;
@@ -48,7 +50,7 @@ media::MediumStack media_at(world::World const& world, Vec3 const& p) {
     ray.origin = p;
     ray.direction = normalize(Vec3(0.4082f, 0.7071f, 0.5774f));
     for (int crossing = 0; crossing < kMaxCrossings; ++crossing) {
-        world::Hit const hit = world.intersect(ray);
+        world::Hit const hit = world.intersect_solid(ray);
         if (!hit) break;
         shading::SurfacePoint const point = world.surface(ray, hit);
         bool const fresh = std::find(seen.begin(), seen.end(), point.object) == seen.end();

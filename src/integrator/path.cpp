@@ -66,7 +66,7 @@ void scatter_in_medium(world::World const& world, PathSettings const& settings, 
     point.wo = -path.ray.direction;
     point.g = world.medium(path.media.current().medium).g;
     path.signature.append(film::Bounce::Volume);
-    direct(world, settings.strategy, path, point, u.get3(Dimension::Light, vertex), sink);
+    direct(world, settings.strategy, path, point, u, vertex, sink);
     path.p = point.p;
     path.n = Vec3(0);
     path.ray.direction =
@@ -119,7 +119,7 @@ void trace_path(world::World const& world, PathSettings const& settings, world::
             shading::SurfacePoint const point = world.surface(path.ray, hit);
             world::Object const& object = world.object(hit.object);
             bool const hidden =
-                object.has_interior && !path.media.is_visible(hit.object, object.priority);
+                object.has_interior && !path.media.is_visible(hit.object, object.rank);
             if (object.is_null || hidden) { // no vertex: straight on
                 if (++crossings > max_crossings) return;
                 continue_from(world, path, point, path.ray.direction, true);
@@ -133,8 +133,7 @@ void trace_path(world::World const& world, PathSettings const& settings, world::
 
             ScatterPoint const here{point.p, shading.bsdf.frame.n, wo, &shading.bsdf, &point};
             if (shading.bsdf.has_smooth() && !world.lights().empty())
-                direct(world, settings.strategy, path, here, u.get3(Dimension::Light, vertex),
-                       sink);
+                direct(world, settings.strategy, path, here, u, vertex, sink);
 
             lobes::BsdfSample const s = shading.bsdf.sample(wo, u.get3(Dimension::Bsdf, vertex));
             if (!(s.pdf > 0)) return;

@@ -5,8 +5,13 @@
 // MIS with the balance heuristic, Veach 1997, 9.2.4). Delta lobes have no value that `eval` could
 // add: `sample` returns them alone, with the probability of that.
 //
-// Where shading and geometric normal disagree about which side wi is on, there is neither
-// reflection nor transmission (Veach 1997, 5.3, gives the other choice; this one leaks no light).
+// Light does not leak: what reflects stays on the geometric side of wo, what transmits leaves it
+// (Veach 1997, 5.3, lets the shading normal decide). What the shading normal sends to the wrong
+// side is *folded*: mirrored at the geometric tangent plane, as a second bounce there would. A
+// folded density is the sum of two, f'(wi) = f(wi) + f(fold wi), each where its own side is right;
+// fold keeps solid angles, so the power of every lobe stays whole (a bent white mirror is white,
+// and facets at the terminator are not black), at the price of reciprocity, which shading normals
+// break anyway.
 #pragma once
 
 #include <cassert>
@@ -90,9 +95,7 @@ class Bsdf {
     /// The sum over the smooth lobes; the density is that of `sample` choosing wi by any of them.
     /// World space, unit directions.
     LobeValue eval(Vec3 const& wo, Vec3 const& wi) const {
-        Vec3 const local = frame.to_local(wi);
-        if (!same_sides(wi, local)) return {};
-        return eval_local(frame.to_local(wo), local);
+        return eval_folded(frame.to_local(wo), wi, frame.to_local(wi));
     }
 
     /// Picks a lobe by u.z, samples it by what is left of u; u in [0, 1)^3.
@@ -139,6 +142,26 @@ class Bsdf {
 
     bool same_sides(Vec3 const& wi, Vec3 const& local) const {
         return dot(wi, geometric_normal) * local.z > 0;
+    }
+
+    /// `wi` mirrored at the geometric tangent plane.
+    Vec3 fold(Vec3 const& wi) const {
+        return wi - geometric_normal * (2 * dot(wi, geometric_normal));
+    }
+
+    /// Towards `wi` (world), which is `wi_local`: what is sent there, and what is folded there.
+    LobeValue eval_folded(Vec3 const& wo, Vec3 const& wi, Vec3 const& wi_local) const {
+        float const height = dot(wi, geometric_normal);
+        LobeValue value;
+        if (height * wi_local.z > 0) value = eval_local(wo, wi_local);
+        // Where the normals are one this is -wi_local.z, and nothing is folded.
+        float const folded_z = wi_local.z - 2 * height * dot(frame.n, geometric_normal);
+        if (folded_z * height > 0) [[unlikely]] {
+            LobeValue const v = eval_local(wo, frame.to_local(fold(wi)));
+            value.f += v.f;
+            value.pdf += v.pdf;
+        }
+        return value;
     }
 
     LobeValue eval_local(Vec3 const& wo, Vec3 const& wi) const {
@@ -196,8 +219,12 @@ inline BsdfSample Bsdf::sample(Vec3 const& wo, Vec3 const& u) const {
     Vec3 const wo_local = frame.to_local(wo);
     Picked const p =
         match(lobe.kind, [&](auto const& l) { return sample_lobe(l, wo_local, u_lobe); });
-    Vec3 const wi = frame.to_world(p.wi);
-    if (!same_sides(wi, p.wi)) return {}; // failures too: the zero vector is on no side
+    Vec3 wi = frame.to_world(p.wi), wi_local = p.wi;
+    if (!same_sides(wi, p.wi)) {
+        wi = fold(wi);
+        wi_local = frame.to_local(wi);
+        if (!same_sides(wi, p.wi)) return {}; // a failure: the zero vector is on no side
+    }
 
     LobeFlags const other = p.wi.z > 0 ? LobeFlags::Transmission : LobeFlags::Reflection;
     BsdfSample result{wi, {}, 0, p.flags & ~other, p.eta_scale};
@@ -206,7 +233,7 @@ inline BsdfSample Bsdf::sample(Vec3 const& wo, Vec3 const& u) const {
         result.pdf = lobe.pick * p.delta_probability;
         return result;
     }
-    LobeValue const v = eval_local(wo_local, p.wi);
+    LobeValue const v = eval_folded(wo_local, wi, wi_local);
     if (!(v.pdf > 0)) return {};
     result.weight = v.f / v.pdf;
     result.pdf = v.pdf;

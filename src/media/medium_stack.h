@@ -1,8 +1,10 @@
 // Which closed dielectrics and media a ray is inside of.
 //
-// Where closed objects overlap, the one of the highest priority is what is there (Schmidt and
-// Budge 2002, "Simple nested dielectrics in ray traced images"): a boundary inside of an object
-// of higher priority is not seen. Of equal priorities the one entered last is there.
+// Where closed objects overlap, the one of the highest rank is what is there (Schmidt and Budge
+// 2002, "Simple nested dielectrics in ray traced images"): a boundary inside of an object of higher
+// rank is not seen. Ranks are the world's (WorldBuilder::rank_boundaries): two closed objects never
+// share one, so that what is there does not depend on the way in. Of equal ranks (open shapes, of
+// which nobody can say what they contain) the one entered last is there.
 #pragma once
 
 #include <array>
@@ -13,7 +15,7 @@ namespace weft::media {
 /// What fills a closed object.
 struct Interior {
     uint32_t object = UINT32_MAX; ///< which object; UINT32_MAX is the space around all
-    int32_t priority = -1000000;
+    int32_t rank = -1;            ///< at least 0 for objects
     float ior = 1;
     int32_t medium = -1; ///< index into the world's media; -1 is a vacuum
 };
@@ -29,11 +31,11 @@ class MediumStack {
     /// What would be there outside of `object`.
     Interior const& current_without(uint32_t object) const { return entries_[top(object)]; }
 
-    /// Whether the boundary of an object with this priority can be seen from here: from inside,
-    /// where that object is what is there; from outside, where it will be.
-    bool is_visible(uint32_t object, int32_t priority) const {
+    /// Whether the boundary of an object of this rank can be seen from here: from inside, where
+    /// that object is what is there; from outside, where it will be.
+    bool is_visible(uint32_t object, int32_t rank) const {
         Interior const& here = current();
-        return here.object == object || (priority >= here.priority && !contains(object));
+        return here.object == object || (rank >= here.rank && !contains(object));
     }
 
     /// Goes in. A full stack (more than 7 nested objects) forgets the object.
@@ -63,8 +65,7 @@ class MediumStack {
     uint32_t top(uint32_t without = UINT32_MAX - 1) const {
         uint32_t best = 0;
         for (uint32_t i = 1; i < size_; ++i)
-            if (entries_[i].object != without && entries_[i].priority >= entries_[best].priority)
-                best = i;
+            if (entries_[i].object != without && entries_[i].rank >= entries_[best].rank) best = i;
         return best;
     }
 

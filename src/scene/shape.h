@@ -94,7 +94,8 @@ struct Instance {
           {.min = -1000,
            .max = 1000,
            .help = "Where closed dielectrics or media overlap, the higher priority is what is "
-                   "there (liquid in a glass: the glass higher)."});
+                   "there (liquid in a glass: the glass higher). Of equal ones the smaller volume "
+                   "is, and of equal volumes the one that comes first."});
     }
 };
 

@@ -61,14 +61,19 @@ class TileRenderer {
     TileRenderer(integrator::PixelRenderer const& renderer, film::Film& film, RenderResult& result)
         : renderer_(renderer), film_(film), result_(result) {}
 
-    void render(film::Region const& tile, uint32_t from, uint32_t to) {
-        for (int y = tile.from.y; y < tile.to.y; ++y)
+    /// Adds the samples [from, to) to each pixel of the tile, row by row while `go_on()`. Returns
+    /// how many it made.
+    template <class GoOn>
+    double render(film::Region const& tile, uint32_t from, uint32_t to, GoOn const& go_on) {
+        int y = tile.from.y;
+        for (; y < tile.to.y && go_on(); ++y)
             for (int x = tile.from.x; x < tile.to.x; ++x) {
                 film::PixelSum sum = film_.pixel(x, y);
                 for (uint32_t s = from; s < to; ++s)
                     sum.add(checked(renderer_.sample({x, y}, s), {x, y}, s));
                 film_.pixel(x, y) = sum;
             }
+        return double(y - tile.from.y) * tile.width() * (to - from);
     }
 
   private:
@@ -146,11 +151,9 @@ RenderResult render(world::World const& world, io::RenderJob const& job,
             tbb::parallel_for(
                 tbb::blocked_range<size_t>(0, regions.size(), 1),
                 [&](auto const& range) {
-                    for (size_t i = range.begin(); i != range.end() && !cancelled(); ++i) {
-                        tiles.render(regions[i], from, to);
-                        meter.add(double(regions[i].width()) * regions[i].height() * (to - from),
+                    for (size_t i = range.begin(); i != range.end() && !cancelled(); ++i)
+                        meter.add(tiles.render(regions[i], from, to, [&] { return !cancelled(); }),
                                   from);
-                    }
                 },
                 tbb::simple_partitioner());
         }
@@ -158,6 +161,7 @@ RenderResult render(world::World const& world, io::RenderJob const& job,
     result.cancelled = cancelled() && meter.done() < pixels * result.samples;
     if (!result.cancelled) meter.finish(result.samples);
     result.image = film.mean();
+    result.least_samples = film.least_samples();
     result.seconds = meter.seconds();
     result.pixel_samples = meter.done();
     return result;

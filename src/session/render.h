@@ -32,7 +32,7 @@ struct RenderOptions {
     int tile_size = 32; ///< pixels
     std::function<void(Progress const&)>
         on_progress; ///< called a few times a second, by one thread at a time
-    std::atomic<bool> const* cancel = nullptr; ///< set to stop at the next tile
+    std::atomic<bool> const* cancel = nullptr; ///< set to stop within a row of a tile
 };
 
 /// A sample whose value was not finite; it counts as black.
@@ -45,7 +45,8 @@ struct BadSample {
 struct RenderResult {
     image::Image image; ///< linear RGB of the region
     film::Region region;
-    uint32_t samples = 0; ///< per pixel that were wanted
+    uint32_t samples = 0;       ///< per pixel that were wanted
+    uint32_t least_samples = 0; ///< that every pixel has; 0: some pixels are black for want of any
     double seconds = 0;
     double pixel_samples = 0; ///< that were made
     bool cancelled = false;

@@ -13,6 +13,7 @@ struct SurfacePoint {
     Vec3 wo{0, 0, 1};      ///< unit, to where the point is seen from
     Vec3 dpdu{0, 0, 0};    ///< along growing u, any length; 0 where there are no uvs
                            ///< or nothing looks at it
+    Vec3 dpdv{0, 0, 0};    ///< along growing v, likewise
     Vec2 uv{0, 0};
     float t = 0;            ///< distance from the ray's origin in units of its direction
     uint32_t object = 0;    ///< which object of the world

@@ -12,8 +12,9 @@ namespace {
 struct FilterContext {
     QueryContext query; // first, so that a pointer to it is a pointer to this
     World const* world;
-    uint32_t seed;
-    float visibility;
+    uint32_t seed = 0;
+    bool passable_only = false, solid = false; ///< of closest hits
+    float visibility = 1;
 };
 
 uint32_t hit_object(RTCFilterFunctionNArguments const* args) {
@@ -38,13 +39,18 @@ void filter_closest(RTCFilterFunctionNArguments const* args) {
     auto const& context = *reinterpret_cast<FilterContext const*>(args->context);
     if (args->valid[0] == 0) return;
     uint32_t const object = hit_object(args), primitive = RTCHitN_primID(args->hit, 1, 0);
+    Object const& o = context.world->object(object);
+    if (context.passable_only && !o.is_passable()) args->valid[0] = 0;
+    if (args->valid[0] == 0 || !o.has_alpha) return;
     // A sphere is one primitive that the ray may meet twice.
     bool const back = RTCHitN_Ng_x(args->hit, 1, 0) * RTCRayN_dir_x(args->ray, 1, 0) +
                           RTCHitN_Ng_y(args->hit, 1, 0) * RTCRayN_dir_y(args->ray, 1, 0) +
                           RTCHitN_Ng_z(args->hit, 1, 0) * RTCRayN_dir_z(args->ray, 1, 0) >
                       0;
     float const u =
-        to_unit_float(hash_combine(hash_combine(context.seed, object), 2 * primitive + back));
+        context.solid
+            ? 0
+            : to_unit_float(hash_combine(hash_combine(context.seed, object), 2 * primitive + back));
     if (u >= hit_opacity(args, context, object)) args->valid[0] = 0;
 }
 
@@ -53,8 +59,8 @@ void filter_shadow(RTCFilterFunctionNArguments const* args) {
     auto& context = *reinterpret_cast<FilterContext*>(args->context);
     if (args->valid[0] == 0) return;
     uint32_t const object = hit_object(args);
-    context.visibility *=
-        context.world->object(object).is_null ? 1 : 1 - hit_opacity(args, context, object);
+    Object const& o = context.world->object(object);
+    if (!o.is_passable()) context.visibility *= 1 - hit_opacity(args, context, object);
     if (context.visibility > 0) args->valid[0] = 0;
 }
 
@@ -127,7 +133,7 @@ RTCScene WorldBuilder::instanced_scene(Object const& object) {
     bool filtered = false;
     for (Object const& o : world_.objects_)
         filtered |= o.instanced && o.kind == object.kind && o.triangles == object.triangles &&
-                    (o.has_alpha || o.is_null);
+                    (o.has_alpha || o.is_passable());
     attach(scene, geometry, 0, filtered);
     rtcCommitScene(scene);
     return scene;
@@ -151,10 +157,10 @@ void WorldBuilder::build_kernel_scene(CommitOptions const& options) {
             attach(world_.embree_scene_, instance, id, false);
         } else if (o.kind == ObjectKind::Sphere) {
             attach(world_.embree_scene_, make_sphere(o.to_world.origin, length(o.to_world.x)), id,
-                   o.has_alpha || o.is_null);
+                   o.has_alpha || o.is_passable());
         } else {
             attach(world_.embree_scene_, make_mesh(world_.triangles_[size_t(o.triangles)]), id,
-                   o.has_alpha || o.is_null);
+                   o.has_alpha || o.is_passable());
         }
     }
     rtcCommitScene(world_.embree_scene_);
@@ -162,12 +168,24 @@ void WorldBuilder::build_kernel_scene(CommitOptions const& options) {
 }
 
 Hit World::intersect(Ray const& ray, uint32_t alpha_seed) const {
+    return closest(ray, Target::Surfaces, alpha_seed);
+}
+
+Hit World::intersect_solid(Ray const& ray) const { return closest(ray, Target::Solid, 0); }
+
+Hit World::intersect_passable(Ray const& ray, uint32_t alpha_seed) const {
+    return closest(ray, Target::Passable, alpha_seed);
+}
+
+Hit World::closest(Ray const& ray, Target target, uint32_t alpha_seed) const {
     if (recorder_) [[unlikely]]
         recorder_->record(ray, false);
     FilterContext context;
     init_context(&context.query);
     context.world = this;
     context.seed = alpha_seed;
+    context.passable_only = target == Target::Passable;
+    context.solid = target == Target::Solid;
     RTCRayHit query;
     query.ray = to_kernel(ray);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -185,7 +203,6 @@ float World::visibility(Ray const& ray) const {
     FilterContext context;
     init_context(&context.query);
     context.world = this;
-    context.visibility = 1;
     RTCRay query = to_kernel(ray);
     embree_occluded(embree_scene_, &context.query, &query);
     return query.tfar < 0 ? 0 : context.visibility;

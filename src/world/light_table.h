@@ -45,6 +45,7 @@ struct LightSample {
     bool delta = false; ///< `pdf` is the chance of the light alone
     float p_error = 0;  ///< how near to the light a shadow ray may go
     int32_t light = -1;
+    int32_t object = -1; ///< whose surface it is; -1: none
 };
 
 class LightTable {

@@ -88,12 +88,16 @@ void World::mesh_point(Object const& object, Hit const& hit, shading::SurfacePoi
     if (object.has_tangents && data.has_uvs) {
         Vec2 const d1(b.u - a.u, b.v - a.v), d2(c.u - a.u, c.v - a.v);
         float const determinant = d1.x * d2.y - d1.y * d2.x;
-        if (determinant != 0) point.dpdu = (e1 * d2.y - e2 * d1.y) * (1 / determinant);
+        if (determinant != 0) {
+            point.dpdu = (e1 * d2.y - e2 * d1.y) * (1 / determinant);
+            point.dpdv = (e2 * d1.x - e1 * d2.x) * (1 / determinant);
+        }
     }
     if (object.instanced) {
         normal = object.to_object.transposed(normal);
         if (data.smooth) point.ns = object.to_object.transposed(point.ns);
         point.dpdu = object.to_world.vector(point.dpdu);
+        point.dpdv = object.to_world.vector(point.dpdv);
         point.p = object.to_world.point(point.p);
         point.p_error =
             absolute_vector(object.to_world, point.p_error) + abs(object.to_world.origin);
@@ -114,7 +118,12 @@ void World::sphere_point(Object const& object, Vec3 const& local,
     point.p = object.to_world.point(local);
     point.ng = point.ns = normalize(object.to_object.transposed(local));
     point.uv = lights::direction_to_uv(local);
-    if (object.has_tangents) point.dpdu = object.to_world.vector(Vec3(local.z, 0, -local.x));
+    if (object.has_tangents) {
+        point.dpdu = object.to_world.vector(Vec3(local.z, 0, -local.x));
+        // Times the sine of the angle to the pole, so that it stays finite there.
+        point.dpdv = object.to_world.vector(
+            Vec3(local.x * local.y, local.y * local.y - 1, local.z * local.y));
+    }
     point.p_error =
         (absolute_vector(object.to_world, Vec3(1)) + abs(object.to_world.origin)) * kRounding;
 }
@@ -123,7 +132,10 @@ void World::apply_normal_map(Object const& object, shading::SurfacePoint& point)
     Vec3 const c = textures_.at(object.normal_map, point);
     Vec3 const n(2 * c.x - 1, 2 * c.y - 1, 2 * c.z - 1);
     if (!(length_squared(n) > 0)) return;
-    Vec3 const mapped = normalize(Frame(point.ns, point.dpdu).to_world(n));
+    Frame frame(point.ns, point.dpdu);
+    // Red goes along u and green along v, also where uvs or the transform mirror.
+    if (dot(frame.t, point.dpdv) < 0) frame.t = -frame.t;
+    Vec3 const mapped = normalize(frame.to_world(n));
     if (dot(mapped, point.ng) > 0) point.ns = mapped;
 }
 
@@ -166,7 +178,7 @@ media::Interior World::interior(shading::SurfacePoint const& point) const {
         o.material ? textures_.at(
                          shading::interior_ior(scene_->materials[size_t(o.material.index)]), point)
                    : 1;
-    return {point.object, o.priority, ior, o.medium};
+    return {point.object, o.rank, ior, o.medium};
 }
 
 } // namespace weft::world

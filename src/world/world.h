@@ -53,11 +53,17 @@ struct Object {
     scene::EmissionId emission;
     scene::TextureId normal_map;
     scene::Input<float> alpha{1};
-    int32_t light = -1;  ///< index of the light that samples it; -1 none
-    int32_t medium = -1; ///< what fills it
-    int32_t priority = 0;
+    int32_t light = -1;   ///< index of the light that samples it; -1 none
+    int32_t medium = -1;  ///< what fills it
+    int32_t priority = 0; ///< as the user gave it
+    int32_t rank = 0;     ///< among all with an interior: the higher is there where they overlap
     bool has_interior = false; ///< crossing its surface changes the medium stack
     bool is_null = false;      ///< no surface: rays pass straight on
+    /// Another object's inside may lie over its boundary, which is then not seen.
+    bool may_be_hidden = false;
+
+    /// Whether only the medium stack can say if light passes.
+    bool is_passable() const { return is_null || may_be_hidden; }
     Affine to_world, to_object;
     bool is_rectangle = false;    ///< a mesh of two triangles that lights know as one
     int32_t source_instance = -1; ///< of the scene, for messages
@@ -85,8 +91,13 @@ class World {
     /// The closest hit in (0, t_max). Surfaces of partial opacity are met with that probability,
     /// decided by `alpha_seed` alone.
     Hit intersect(Ray const& ray, uint32_t alpha_seed = 0) const;
+    /// The closest hit, where every surface is there as a whole.
+    Hit intersect_solid(Ray const& ray) const;
+    /// The closest boundary that `visibility` looks through, by its opacity as for `intersect`.
+    /// For rays that `visibility` is not 0 for.
+    Hit intersect_passable(Ray const& ray, uint32_t alpha_seed) const;
     /// The part of light that gets through the surfaces along the ray up to t_max: 0 behind an
-    /// opaque surface, the product of (1 - opacity) elsewhere. Null boundaries are not seen.
+    /// opaque surface, the product of (1 - opacity) elsewhere. Passable boundaries are not seen.
     float visibility(Ray const& ray) const;
 
     shading::SurfacePoint surface(Ray const& ray, Hit const& hit) const;
@@ -106,7 +117,7 @@ class World {
     media::Medium const& medium(int32_t index) const { return media_[size_t(index)]; }
     /// What surrounds the camera.
     media::MediumStack outside() const { return outside_; }
-    /// Whether straight lines may cross media or null boundaries.
+    /// Whether straight lines may cross media or passable boundaries.
     bool has_media() const { return has_media_; }
     /// Whether any surface is partly transparent.
     bool has_alpha() const { return has_alpha_; }
@@ -130,6 +141,9 @@ class World {
   private:
     friend class WorldBuilder;
     World() = default;
+
+    enum class Target : uint8_t { Surfaces, Passable, Solid };
+    Hit closest(Ray const& ray, Target target, uint32_t alpha_seed) const;
 
     void mesh_point(Object const& object, Hit const& hit, shading::SurfacePoint& point) const;
     void sphere_point(Object const& object, Vec3 const& local, shading::SurfacePoint& point) const;

@@ -41,6 +41,7 @@ void WorldBuilder::build(CommitOptions const& options) {
     rectangle_ = make_rectangle();
     collect_instances();
     compile_networks();
+    rank_boundaries();
     build_kernel_scene(options);
     build_lights();
     media::Interior space;

@@ -38,6 +38,10 @@ class WorldBuilder {
     int32_t baked_triangles(std::shared_ptr<scene::Mesh const> mesh, bool smooth,
                             Affined const& transform);
 
+    /// Ranks what has an inside: by priority; then shapes that are not closed below those that
+    /// are; then the smaller volume above the larger, so that what is put inside of another thing
+    /// is there; then the earlier object above the later.
+    void rank_boundaries();
     void build_kernel_scene(CommitOptions const& options);
     RTCGeometry make_mesh(TriangleData const& triangles) const;
     RTCGeometry make_sphere(Vec3 const& centre, float radius) const;

@@ -111,13 +111,43 @@ expect 2 "$weft" test t.xml
 sed -e 's/count="4"/count="1000000"/' s.xml >long.xml
 "$weft" render long.xml -o long.exr >out 2>err &
 pid=$!
-sleep 2
+sleep 3.5
 kill -INT $pid
 wait $pid
 code=$?
 [ $code = 130 ] || fail "expected exit code 130 after an interrupt, found $code"
 has "what is done is written" err
+grep -qE '[1-9][0-9]* of 1000000 samples in each pixel' err || fail "not how many samples it has"
+has '% after' err # a plain line of progress, since stderr is no terminal
 [ -s long.exr ] || fail "an interrupted render wrote nothing"
+
+# Ctrl-C before every pixel has a sample leaves an older picture as it is, whenever it comes; and
+# the second one kills at once.
+sed -e 's/count="4"/count="64"/' -e 's/width="40" height="30"/width="8000" height="8000"/' s.xml >big.xml
+cp a.exr old.exr
+python3 - "$weft" <<'P' || fail "an interrupt was not answered"
+import signal, subprocess, sys, time
+
+def interrupted(delays, *arguments):
+    p = subprocess.Popen([sys.argv[1], "render", *arguments, "--threads", "1"],
+                         stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    for delay in delays:
+        time.sleep(delay)
+        p.send_signal(signal.SIGINT)
+    start = time.time()
+    message = p.communicate(timeout=20)[1]
+    return p.returncode, message, time.time() - start
+
+for delay in (0, 0.01, 0.02, 0.05, 0.1, 0.2, 0.4, 1, 2):
+    code, message, seconds = interrupted([delay], "big.xml", "-o", "old.exr")
+    # Before main begins the system answers, without a word.
+    assert code == 130 and "no file is overwritten" in message or code == -signal.SIGINT, \
+        (delay, code, message)
+    assert seconds < 5, (delay, seconds)
+code, message, seconds = interrupted([0.5, 0.0005], "big.xml", "-o", "old.exr")
+assert code in (130, -signal.SIGINT), (code, message)
+P
+cmp -s a.exr old.exr || fail "an interrupted render overwrote the old picture"
 
 [ $failures = 0 ] && echo "the command line works"
 exit $((failures > 0))

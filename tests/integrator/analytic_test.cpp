@@ -55,14 +55,62 @@ TEST(Furnace, SmoothGlassDisappears) {
 }
 
 TEST(Furnace, NestedGlassDisappears) {
-    // Overlapping glasses of different priorities, as liquid in a glass: energy is kept all the
-    // same. (Of equal ones, what is there depends on the way in, and light can be caught.)
-    auto const scene = make_scene(kCamera + kWhiteSky + R"(
-        <instance priority="1"><shape type="sphere"/><bsdf type="dielectric" ior="1.33"/></instance>
-        <instance priority="2"><shape type="sphere"/><bsdf type="dielectric" ior="1.5"/><transform><translate x="0.4"/></transform></instance>
-        <instance priority="3"><shape type="sphere"/><bsdf type="dielectric" ior="1.8"/><transform><scale value="0.8"/><translate x="-0.3" y="0.2"/></transform></instance>)",
-                                  "type=\"path\" depth=\"-1\" rouletteDepth=\"1000\"");
-    expect_mean(scene, Color(1), 500, 3, "nested");
+    // Overlapping glasses, as liquid in a glass: energy is kept all the same, and of equal
+    // priorities as well, since what is there does not depend on the way in.
+    for (bool equal : {false, true}) {
+        auto const priority = [&](char const* p) { return std::string(equal ? "0" : p); };
+        auto const scene = make_scene(
+            kCamera + kWhiteSky + "<instance priority=\"" + priority("1") +
+                R"("><shape type="sphere"/><bsdf type="dielectric" ior="1.33"/></instance>
+                <instance priority=")" +
+                priority("2") +
+                R"("><shape type="sphere"/><bsdf type="dielectric" ior="1.5"/><transform><translate x="0.4"/></transform></instance>
+                <instance priority=")" +
+                priority("3") +
+                R"("><shape type="sphere"/><bsdf type="dielectric" ior="1.8"/><transform><scale value="0.8"/><translate x="-0.3" y="0.2"/></transform></instance>)",
+            "type=\"path\" depth=\"-1\" rouletteDepth=\"1000\"");
+        expect_mean(scene, Color(1), 500, 3, equal ? "equal priorities" : "nested");
+    }
+}
+
+TEST(Furnace, NormalMapsKeepAllLight) {
+    // However strong the map and flat the view, a white surface in a white furnace stays white.
+    for (char const* bsdf :
+         {R"(<bsdf type="diffuse" albedo="1"/>)", R"(<bsdf type="conductor" reflectance="1"/>)"})
+        for (char const* shape : {"sphere", "rectangle"})
+            for (char const* strategy : {"mis", "nee", "bsdf"}) {
+                auto const scene = make_scene(
+                    R"(<camera type="perspective" width="8" height="8" fov="40"><transform><lookat origin="0,-3.9,1" target="0,0,0" up="0,0,1"/></transform></camera>)" +
+                        kWhiteSky + "<instance><shape type=\"" + shape + "\"/>" + bsdf +
+                        R"(<texture name="normal" type="checkerboard" color0="0.95,0.5,0.6" color1="0.2,0.1,0.65" scale="9,7"/></instance>)",
+                    std::string("type=\"path\" depth=\"-1\" strategy=\"") + strategy + "\"");
+                expect_mean(scene, Color(1), 1000, 7, std::string(bsdf) + shape + strategy);
+            }
+}
+
+TEST(Overlap, IsTheSameFromBothSides) {
+    // Two clouds that absorb, of one priority. The smaller, or of equals the earlier, fills what
+    // they share: the length through it is known, and so is what is left of the sky.
+    struct Case {
+        double first_radius, first_length, second_length;
+    };
+    // Balls at x = 0 and, of radius 1, at x = 1.2: [-r, r] and [0.2, 2.2].
+    for (Case const& c : {Case{1, 2, 1.2}, Case{1.1, 1.3, 2}, Case{0.8, 1.6, 1.4}})
+        for (char const* origin : {"-9,0,0", "9,0,0"}) {
+            auto const scene = make_scene(
+                R"(<camera type="perspective" width="4" height="4" fov="0.01"><transform><lookat origin=")" +
+                    std::string(origin) + R"(" target="0,0,0" up="0,1,0"/></transform></camera>)" +
+                    kWhiteSky +
+                    R"(<instance><shape type="sphere"/><medium type="homogeneous" absorption="1,0,0.5"/><transform><scale value=")" +
+                    std::to_string(c.first_radius) +
+                    R"("/></transform></instance>
+                    <instance><shape type="sphere"/><medium type="homogeneous" absorption="0,1,0.5"/><transform><translate x="1.2"/></transform></instance>)",
+                "type=\"path\" depth=\"-1\" rouletteDepth=\"1000\"");
+            Color const left(float(std::exp(-c.first_length)), float(std::exp(-c.second_length)),
+                             float(std::exp(-0.5 * (c.first_length + c.second_length))));
+            expect_mean(scene, left, 4000, 6,
+                        "radius " + std::to_string(c.first_radius) + " from " + origin);
+        }
 }
 
 TEST(Furnace, RoughGlassLosesLittleAndGainsNothing) {

@@ -144,6 +144,21 @@ std::vector<Case> cases(TemporaryFolder const& folder) {
          kFloor + sphere_light("<scale value=\"0.5\"/>") + R"(<instance><shape type="sphere"/>)" +
              rough_glass + R"(<medium type="homogeneous" absorption="0.3,0.8,1.5"/>
                <transform><scale value="1.2"/></transform></instance>)"},
+        {"half transparent fog", kFloor + kRectangleLight + dim +
+                                     R"(<instance alpha="0.5"><shape type="sphere"/>)" + fog +
+                                     "</instance>"},
+        {"light in glass that fog of higher priority hides",
+         kFloor + sphere_light("<scale value=\"0.5\"/>") + ball(R"(<bsdf type="dielectric"/>)") +
+             R"(<instance priority="1"><shape type="sphere"/>)" + fog +
+             R"(<transform><scale value="1.4"/></transform></instance>)"},
+        {"light in glass within rough glass of higher priority",
+         kFloor + sphere_light("<scale value=\"0.5\"/>") + ball(rough_glass) +
+             R"(<instance priority="1"><shape type="sphere"/><bsdf type="roughdielectric" roughness="0.6" ior="1.2"/>
+               <medium type="homogeneous" scatter="0.6,0.4,0.2"/><transform><scale value="1.3"/></transform></instance>)"},
+        {"glowing glass that fog hides in part",
+         kFloor + kBall + dim + sphere_light("<scale value=\"0.8\"/>" + up, rough_glass) +
+             R"(<instance priority="1"><shape type="sphere"/>)" + fog +
+             R"(<transform><translate x="1.5" y="1.8" z="-1.2"/></transform></instance>)"},
         {"nested rough dielectrics",
          kFloor + kRectangleLight + dim +
              R"(<instance priority="2"><shape type="sphere"/><bsdf type="roughdielectric" roughness="0.4" ior="1.5"/></instance>

@@ -132,30 +132,51 @@ TEST(Bsdf, OneLobeAlone) {
     });
 }
 
-TEST(Bsdf, NormalsThatDisagreeGiveNothing) {
-    Vec3 const wo = kFrame.to_world(at_angle(30, 0)), ng = kFrame.to_world(at_angle(35, 0));
+TEST(Bsdf, NormalsThatDisagreeLeakNoLight) {
+    Vec3 const wo = kFrame.to_world(at_angle(30, 0)), ng = kFrame.to_world(at_angle(50, 180));
     Bsdf const bsdf = mixture(ng, wo);
     Rng rng(8);
-    int disagreeing = 0;
+    int folded = 0;
     for (int i = 0; i < 2000; ++i) {
-        Vec3 const wi = square_to_sphere(rng.next2());
-        bool const agree = (dot(wi, ng) > 0) == (dot(wi, kFrame.n) > 0);
-        disagreeing += !agree;
-        if (!agree) {
-            EXPECT_EQ(bsdf.eval(wo, wi).f, Color());
-            EXPECT_EQ(bsdf.eval(wo, wi).pdf, 0);
-        }
         BsdfSample const s = bsdf.sample(wo, rng.next3());
-        if (s.pdf > 0) {
-            EXPECT_EQ(dot(s.wi, ng) > 0, dot(s.wi, kFrame.n) > 0);
-        }
+        if (!(s.pdf > 0)) continue;
+        Vec3 const other = s.wi - ng * (2 * dot(s.wi, ng));
+        folded += dot(other, kFrame.n) * dot(s.wi, ng) > 0;
+        EXPECT_EQ(any(s.flags, LobeFlags::Reflection), dot(s.wi, ng) > 0);
+        EXPECT_EQ(any(s.flags, LobeFlags::Transmission), dot(s.wi, ng) < 0);
+        LobeValue const v = bsdf.eval(wo, s.wi);
+        if (any(s.flags, LobeFlags::Delta)) continue;
+        EXPECT_NEAR(v.pdf, s.pdf, 1e-3f * s.pdf);
     }
-    EXPECT_GT(disagreeing, 100);
+    EXPECT_GT(folded, 100);
+}
 
-    // A mirror whose reflection would go below the surface fails.
-    Bsdf mirror(kFrame, kFrame.to_world(at_angle(60, 0)));
-    mirror.add(Color(1), SpecularReflection{});
-    EXPECT_EQ(mirror.sample(kFrame.to_world(at_angle(70, 0)), Vec3(0.5f)).pdf, 0);
+TEST(Bsdf, NormalsThatDisagreeKeepAllPower) {
+    // However far the shading normal is bent, white stays white, and densities integrate to 1.
+    for (float const bend : {10.f, 40.f, 75.f}) {
+        Vec3 const ng = kFrame.to_world(at_angle(bend, 0)), wo = kFrame.to_world(at_angle(10, 60));
+        if (!(dot(wo, ng) > 0)) continue;
+        Bsdf diffuse(kFrame, ng), mirror(kFrame, ng);
+        diffuse.add(Color(1), Lambert{});
+        mirror.add(Color(1), SpecularReflection{});
+        Rng rng(uint64_t(bend) + 9);
+        std::vector<double> density;
+        for (int i = 0; i < 40000; ++i) {
+            BsdfSample const s = diffuse.sample(wo, rng.next3());
+            ASSERT_GT(dot(s.wi, ng), 0);
+            ASSERT_NEAR(s.weight.g, 1, 1e-4);
+            density.push_back(double(diffuse.eval(wo, square_to_sphere(rng.next2())).pdf) * 4 *
+                              M_PI);
+        }
+        auto const e = weft::testing::estimate(density);
+        EXPECT_GE(weft::testing::normal_tail((e.mean - 1) / std::sqrt(e.variance)),
+                  weft::testing::sidak(0.01, 3))
+            << e.mean << " at " << bend;
+        BsdfSample const s = mirror.sample(wo, Vec3(0.5f));
+        EXPECT_GT(dot(s.wi, ng), 0);
+        EXPECT_NEAR(length(s.wi), 1, 1e-6);
+        EXPECT_EQ(s.weight, Color(1));
+    }
 }
 
 TEST(Bsdf, Bookkeeping) {

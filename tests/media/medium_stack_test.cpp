@@ -6,15 +6,15 @@
 namespace weft::media {
 namespace {
 
-Interior interior(uint32_t object, int32_t priority, float ior = 1.5f) {
-    return {object, priority, ior, int32_t(object)};
+Interior interior(uint32_t object, int32_t rank, float ior = 1.5f) {
+    return {object, rank, ior, int32_t(object)};
 }
 
 TEST(MediumStack, IsEmptySpaceAtFirst) {
     MediumStack const stack;
     EXPECT_EQ(stack.current().ior, 1);
     EXPECT_EQ(stack.current().medium, -1);
-    EXPECT_TRUE(stack.is_visible(3, -1000));
+    EXPECT_TRUE(stack.is_visible(3, 0));
 }
 
 TEST(MediumStack, GivesBackWhatSurrounds) {
@@ -32,7 +32,7 @@ TEST(MediumStack, NestedObjectsAreSeenBothWays) {
     MediumStack stack;
     EXPECT_TRUE(stack.is_visible(1, 0));
     stack.enter(interior(1, 0, 1.5f));
-    EXPECT_TRUE(stack.is_visible(2, 0)); // a diamond inside of the glass, of equal priority
+    EXPECT_TRUE(stack.is_visible(2, 0)); // a diamond inside of the glass, of equal rank
     stack.enter(interior(2, 0, 2.4f));
     EXPECT_EQ(stack.current().object, 2u);
     EXPECT_EQ(stack.current_without(2).ior, 1.5f);
@@ -64,7 +64,7 @@ TEST(MediumStack, LiquidThatReachesIntoTheGlass) {
     EXPECT_EQ(stack.current().object, UINT32_MAX);
 }
 
-TEST(MediumStack, OfEqualPrioritiesTheLastEnteredIsThere) {
+TEST(MediumStack, OfEqualRanksTheLastEnteredIsThere) {
     MediumStack stack;
     stack.enter(interior(1, 0));
     stack.enter(interior(2, 0));
@@ -74,6 +74,15 @@ TEST(MediumStack, OfEqualPrioritiesTheLastEnteredIsThere) {
     stack.leave(1);
     EXPECT_EQ(stack.current().object, 2u);
     EXPECT_TRUE(stack.is_visible(2, 0));
+}
+
+TEST(MediumStack, OfDifferentRanksTheOrderOfEntryIsForgotten) {
+    MediumStack ab, ba;
+    for (uint32_t i : {1u, 2u}) ab.enter(interior(i, int32_t(i)));
+    for (uint32_t i : {2u, 1u}) ba.enter(interior(i, int32_t(i)));
+    EXPECT_EQ(ab.current().object, 2u);
+    EXPECT_EQ(ba.current().object, 2u);
+    EXPECT_EQ(ab.current_without(2).object, ba.current_without(2).object);
 }
 
 TEST(MediumStack, SurvivesWhatIsNotClosed) {

@@ -110,6 +110,7 @@ TEST(Render, SamplesPerPixelAddUp) {
         options.crop = film::Region{{30, 20}, {36, 24}};
         RenderResult const result = render_with(scene, options);
         EXPECT_EQ(result.samples, uint32_t(spp));
+        EXPECT_EQ(result.least_samples, uint32_t(spp));
         for (int y = 20; y < 24; ++y)
             for (int x = 30; x < 36; ++x) {
                 film::PixelSum sum;
@@ -156,6 +157,25 @@ TEST(Cancel, KeepsWhatIsDone) {
     EXPECT_GT(sum, 0);
 }
 
+TEST(Cancel, LeavesEveryPixelTheMeanOfItsOwnSamples) {
+    // The light of an even sky is 1 whatever the sample, so that a pixel is off where it is
+    // divided by another's number of samples.
+    TestScene const scene =
+        make_scene(R"(
+        <camera type="perspective" width="90" height="70" fov="50"/>
+        <light type="envmap"><texture type="constant" value="1"/></light>)",
+                   "type=\"path\" depth=\"2\"", "", "type=\"sobol\" count=\"1000000\"");
+    std::atomic<bool> cancel{false};
+    RenderOptions options;
+    options.cancel = &cancel;
+    options.on_progress = [&](Progress const& p) { cancel = p.samples_done > 0; };
+    RenderResult const result = render_with(scene, options);
+    EXPECT_TRUE(result.cancelled);
+    EXPECT_GE(result.least_samples, 1u);
+    EXPECT_GE(result.pixel_samples, 90.0 * 70 * result.least_samples);
+    for (float v : result.image.pixels) ASSERT_EQ(v, 1);
+}
+
 TEST(Cancel, BeforeTheStartLeavesBlack) {
     TestScene const scene = scene_with();
     std::atomic<bool> const cancel{true};
@@ -164,6 +184,7 @@ TEST(Cancel, BeforeTheStartLeavesBlack) {
     RenderResult const result = render_with(scene, options);
     EXPECT_TRUE(result.cancelled);
     EXPECT_EQ(result.pixel_samples, 0);
+    EXPECT_EQ(result.least_samples, 0u);
     for (float v : result.image.pixels) ASSERT_EQ(v, 0);
 }
 

@@ -291,6 +291,53 @@ TEST(Instances, FlatShapesHaveTheNormalOfTheMap) {
     EXPECT_FLOAT_EQ(front({10, 0, -3}, {0, 0, 1}).ng.z, -1);
 }
 
+TEST(NormalMaps, GoAlongUAndVWhateverIsMirrored) {
+    // A map that tilts by 45 degrees along +v, on a square whose uvs and transforms mirror in turn,
+    // single (in world space) and instanced.
+    TemporaryFolder const folder;
+    for (bool mirror_uv : {false, true})
+        for (bool mirror_transform : {false, true})
+            for (bool instanced : {false, true}) {
+                scene::Mesh mesh;
+                constexpr uint32_t n = 8; // enough triangles to be instanced
+                for (uint32_t y = 0; y <= n; ++y)
+                    for (uint32_t x = 0; x <= n; ++x) {
+                        float const s = float(x) / n, t = float(y) / n;
+                        mesh.positions.push_back({2 * s - 1, 2 * t - 1, 0});
+                        mesh.uvs.push_back({s, mirror_uv ? 1 - t : t});
+                    }
+                for (uint32_t y = 0; y < n; ++y)
+                    for (uint32_t x = 0; x < n; ++x) {
+                        uint32_t const a = y * (n + 1) + x, b = a + 1, c = b + n + 1, d = c - 1;
+                        mesh.triangles.push_back({{a, b, c}});
+                        mesh.triangles.push_back({{a, c, d}});
+                    }
+                write_ply(folder / "square.ply", mesh);
+                auto const instance = [&](char const* move) {
+                    return std::string(R"(<instance><shape type="mesh" filename="square.ply"/>
+                        <texture name="normal" type="constant" value="0.5,1,1"/><transform>)") +
+                           (mirror_transform ? "<scale y=\"-1\"/>" : "") + move +
+                           "</transform></instance>";
+                };
+                auto const scene = make_scene(
+                    kCamera + instance("") + (instanced ? instance("<translate x=\"9\"/>") : ""),
+                    "type=\"path\"", folder.path());
+                ASSERT_EQ(scene.world->object(0).instanced, instanced);
+                Ray const ray{{0.3f, 0.2f, 5}, {0, 0, -1}};
+                shading::SurfacePoint const p =
+                    scene.world->surface(ray, scene.world->intersect(ray));
+                float const up = mirror_uv != mirror_transform ? -1 : 1, r = std::sqrt(0.5f);
+                EXPECT_LT(length(p.ns - Vec3(0, up * r, r)), 1e-6f)
+                    << mirror_uv << mirror_transform << instanced;
+            }
+    // On a sphere u grows around the pole from +x to +z, and v from +y to -y.
+    auto const scene = make_scene(kCamera + R"(<instance><shape type="sphere"/>
+        <texture name="normal" type="constant" value="0.5,1,1"/></instance>)");
+    Ray const ray{{5, 0, 0}, {-1, 0, 0}};
+    shading::SurfacePoint const p = scene.world->surface(ray, scene.world->intersect(ray));
+    EXPECT_LT(length(p.ns - normalize(Vec3(1, -1, 0))), 1e-5f);
+}
+
 TEST(Groups, OuterSettingsReplaceThoseOfMembers) {
     std::string const group = R"(
         <bsdf type="diffuse" id="red" albedo="1,0,0"/><bsdf type="diffuse" id="blue" albedo="0,0,1"/>

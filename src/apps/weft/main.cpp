@@ -2,10 +2,12 @@
 #include <cstdio>
 
 #include "apps/weft/commands.h"
+#include "apps/weft/interrupt.h"
 #include "base/error.h"
 
 int main(int argc, char** argv) {
     using namespace weft::apps;
+    handle_interrupts();
     CLI::App app{"Weft, a path tracer", "weft"};
     app.set_version_flag("--version", "weft " WEFT_VERSION);
     app.require_subcommand(1);

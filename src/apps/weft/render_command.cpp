@@ -1,11 +1,10 @@
 // weft render SCENE: reads, commits, renders, writes.
-#include <atomic>
-#include <csignal>
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
 
 #include "apps/weft/commands.h"
+#include "apps/weft/interrupt.h"
 #include "apps/weft/progress_line.h"
 #include "apps/weft/scene_loading.h"
 #include "image/write.h"
@@ -16,8 +15,6 @@ namespace weft::apps {
 namespace fs = std::filesystem;
 
 namespace {
-
-std::atomic<bool> interrupted{false};
 
 struct RenderArguments {
     std::string scene;
@@ -63,7 +60,7 @@ std::vector<std::string> output_paths(RenderArguments const& a, io::RenderJob co
 image::Metadata metadata(RenderArguments const& a, session::RenderResult const& r) {
     return {{"Software", "Weft " WEFT_VERSION},
             {"weft:seed", std::to_string(a.options.seed)},
-            {"weft:samplesPerPixel", std::to_string(r.samples)},
+            {"weft:samplesPerPixel", std::to_string(r.least_samples)},
             {"weft:complete", r.cancelled ? "false" : "true"}};
 }
 
@@ -82,32 +79,35 @@ int render_job(RenderArguments& a, io::RenderJob const& job, bool only_job) {
     auto const world = world::World::commit(job.scene, {a.isa, parse_size(a.size, *job.scene)});
     for (std::string const& lint : lint_warnings(*world)) fmt::print(stderr, "warning: {}\n", lint);
 
-    ProgressStyle const style = progress_style(a.progress);
-    a.options.on_progress = [&](session::Progress const& p) {
-        print_progress(style, p, p.fraction >= 1);
-    };
+    ProgressLine progress(progress_style(a.progress));
+    a.options.on_progress = [&](session::Progress const& p) { progress.print(p); };
     if (!a.crop.empty()) a.options.crop = parse_crop(a.crop);
+    GracefulInterrupt const interrupt;
+    a.options.cancel = &interrupt.flag();
     session::RenderResult const result = session::render(*world, job, a.options);
-    if (result.cancelled && style == ProgressStyle::Terminal) fmt::print(stderr, "\n");
+    if (result.cancelled) progress.stop();
     report_bad_samples(result, a.options.seed);
+    if (result.least_samples == 0) {
+        fmt::print(stderr, "stopped before every pixel had a sample: no file is overwritten\n");
+        return kInterrupted;
+    }
     for (std::string const& path : paths) {
         image::write_image(path, result.image, metadata(a, result));
         fmt::print("{}\n", path);
     }
     fmt::print(stderr, "{} x {} pixels, {} samples each: {}, {} samples/s\n", result.region.width(),
-               result.region.height(), result.samples, duration_text(result.seconds),
+               result.region.height(), result.least_samples, duration_text(result.seconds),
                count_text(result.pixel_samples / std::max(result.seconds, 1e-9)));
     if (!result.cancelled) return kDone;
-    fmt::print(stderr, "stopped after {:.1f} % of the samples; what is done is written\n",
-               100 * result.pixel_samples /
-                   (double(result.region.width()) * result.region.height() * result.samples));
+    fmt::print(stderr,
+               "stopped; what is done is written: {} of {} samples in each pixel, {:.1f} on the "
+               "average\n",
+               result.least_samples, result.samples,
+               result.pixel_samples / (double(result.region.width()) * result.region.height()));
     return kInterrupted;
 }
 
 int run(RenderArguments& a) {
-    std::signal(SIGINT, [](int) { interrupted = true; });
-    std::signal(SIGTERM, [](int) { interrupted = true; });
-    a.options.cancel = &interrupted;
     io::SceneFile const file = io::read_scene_file(a.scene, a.overrides);
     for (std::string const& warning : file.warnings) fmt::print(stderr, "warning: {}\n", warning);
     for (io::RenderJob const& job : file.jobs)
