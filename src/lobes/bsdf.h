@@ -25,7 +25,8 @@ namespace weft::lobes {
 
 /// Every kind of lobe. All are trivially copyable and destructible.
 using LobeVariant = std::variant<Lambert, SpecularReflection, SpecularDielectric, GgxReflection,
-                                 BeckmannReflection, GgxDielectric, BeckmannDielectric>;
+                                 BeckmannReflection, AshikhminShirleyReflection, GgxDielectric,
+                                 BeckmannDielectric, AshikhminShirleyDielectric>;
 
 struct Lobe {
     Color weight;   ///< multiplies the kind's value

@@ -40,12 +40,13 @@ class MicrofacetDielectric {
     }
 
     Vec3 sample(Vec3 const& wo, Vec3 const& u) const {
-        Vec3 const m = distribution_.sample_visible_normal(wo, {u.x, u.y});
+        float spare = u.z;
+        Vec3 const m = distribution_.sample_visible_normal(wo, {u.x, u.y}, spare);
         float const cos_o = dot(wo, m);
         if (!(cos_o > 0)) return Vec3(0);
         float cos_t;
         float const fresnel = fresnel_dielectric(cos_o, eta_, cos_t);
-        if (u.z < reflect_probability(fresnel)) {
+        if (spare < reflect_probability(fresnel)) {
             Vec3 const wi = reflect(wo, m);
             return wi.z > 0 ? normalize(wi) : Vec3(0);
         }
@@ -55,7 +56,7 @@ class MicrofacetDielectric {
     }
 
     Color albedo(Vec3 const& wo) const {
-        auto const [reflected, transmitted] = dielectric_albedo(distribution_, wo.z, eta_);
+        auto const [reflected, transmitted] = dielectric_albedo(distribution_, wo, eta_);
         return reflectance_ * reflected + transmittance_ * transmitted;
     }
 
@@ -68,10 +69,11 @@ class MicrofacetDielectric {
         float const fresnel = fresnel_dielectric(0.5f * sum_length, eta_);
         float const sigma_o = distribution_.projected_area(wo);
         float const sigma_i = distribution_.projected_area(wi);
-        float const density = distribution_.density(h) / (4 * sigma_o);
+        float const quarter_density = 0.25f * distribution_.density(h);
         float const weight = shadowing_above(wo.z, sigma_o, wi.z, sigma_i);
-        return {reflectance_ * (fresnel * density * weight),
-                density * reflect_probability(fresnel)};
+        return {reflectance_ * (fresnel * quarter_density * weight / sigma_o),
+                quarter_density / distribution_.sampling_area(wo, h, sigma_o) *
+                    reflect_probability(fresnel)};
     }
 
     LobeValue eval_transmission(Vec3 const& wo, Vec3 const& wi) const {
@@ -86,10 +88,11 @@ class MicrofacetDielectric {
         float const sigma_o = distribution_.projected_area(wo);
         float const sigma_i = distribution_.projected_area(wi);
         float const jacobian = -cos_i / sum2; // of h in wi, over eta^2
-        float const density = distribution_.density(h) * cos_o / sigma_o * jacobian;
+        float const density = distribution_.density(h) * cos_o * jacobian;
         float const weight = shadowing_across(wo.z, sigma_o, -wi.z, sigma_i);
-        return {transmittance_ * ((1 - fresnel) * density * weight),
-                density * square(eta_) * transmit_probability(fresnel)};
+        return {transmittance_ * ((1 - fresnel) * density * weight / sigma_o),
+                density / distribution_.sampling_area(wo, h, sigma_o) * square(eta_) *
+                    transmit_probability(fresnel)};
     }
 
     float reflect_probability(float fresnel) const {
@@ -111,7 +114,9 @@ class MicrofacetDielectric {
 
 using GgxDielectric = MicrofacetDielectric<Ggx>;
 using BeckmannDielectric = MicrofacetDielectric<Beckmann>;
+using AshikhminShirleyDielectric = MicrofacetDielectric<AshikhminShirley>;
 
-static_assert(SmoothLobe<GgxDielectric> && SmoothLobe<BeckmannDielectric>);
+static_assert(SmoothLobe<GgxDielectric> && SmoothLobe<BeckmannDielectric> &&
+              SmoothLobe<AshikhminShirleyDielectric>);
 
 } // namespace weft::lobes

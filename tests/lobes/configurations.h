@@ -17,7 +17,12 @@ struct Configuration {
     bool isotropic = true;
     /// Relative error that rounding of directions (some 1e-6 in all) makes in the value.
     float resolution = 1e-4f;
+    bool weighs_below_one = true; ///< every sample: f / pdf is at most 1
 };
+
+/// Whether the distribution draws visible normals, which G2 / G1 <= 1 weighs.
+template <class Distribution>
+constexpr bool draws_visible = !std::is_same_v<Distribution, AshikhminShirley>;
 
 template <class L>
 std::vector<Configuration<L>> test_configurations() = delete;
@@ -52,7 +57,8 @@ reflections(std::string const& name) {
         all.push_back({name + " alpha " + std::to_string(a.x) + " " + std::to_string(a.y),
                        {{a.x, a.y}},
                        a.x == a.y,
-                       std::max(1e-4f, 1e-6f / std::min(a.x, a.y))});
+                       std::max(1e-4f, 1e-6f / std::min(a.x, a.y)),
+                       draws_visible<Distribution>});
     }
     return all;
 }
@@ -89,7 +95,8 @@ dielectrics(std::string const& name) {
                            std::to_string(p.alpha_y) + " eta " + std::to_string(p.eta) + " tints " +
                            std::to_string(p.reflectance.r) + " " +
                            std::to_string(p.transmittance.r),
-                       lobe, p.alpha_x == p.alpha_y, std::max(1e-4f, 1e-6f / width)});
+                       lobe, p.alpha_x == p.alpha_y, std::max(1e-4f, 1e-6f / width),
+                       draws_visible<Distribution>});
     }
     return all;
 }
@@ -101,6 +108,16 @@ inline std::vector<Configuration<GgxReflection>> test_configurations<GgxReflecti
 template <>
 inline std::vector<Configuration<BeckmannReflection>> test_configurations<BeckmannReflection>() {
     return reflections<Beckmann>("BeckmannReflection");
+}
+template <>
+inline std::vector<Configuration<AshikhminShirleyReflection>>
+test_configurations<AshikhminShirleyReflection>() {
+    return reflections<AshikhminShirley>("AshikhminShirleyReflection");
+}
+template <>
+inline std::vector<Configuration<AshikhminShirleyDielectric>>
+test_configurations<AshikhminShirleyDielectric>() {
+    return dielectrics<AshikhminShirley>("AshikhminShirleyDielectric");
 }
 template <>
 inline std::vector<Configuration<GgxDielectric>> test_configurations<GgxDielectric>() {

@@ -175,6 +175,7 @@ void check_tables(char const* name) {
 TEST(SmoothLobes, AlbedoTablesAreAccurateBetweenNodes) {
     check_tables<Ggx>("Ggx");
     check_tables<Beckmann>("Beckmann");
+    check_tables<AshikhminShirley>("AshikhminShirley");
 }
 
 } // namespace
