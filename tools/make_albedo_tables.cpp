@@ -153,7 +153,7 @@ void write_reflection(Writer& out, std::string const& name) {
         Distribution const d{alpha_node(a, alphas), alpha_node(a, alphas)};
         for (int c = 0; c < cosines; ++c)
             all[size_t(a * cosines + c)] =
-                integrate(d, direction(cosine_at(node(c, cosines)), 1, 0), 0).white;
+                integrate(d, direction(cosine_at(node(c, cosines), d.alpha_x), 1, 0), 0).white;
     }
     out.open(name + "_reflection");
     for (auto const member :
@@ -171,10 +171,11 @@ void write_reflection(Writer& out, std::string const& name) {
             for (int p = 0; p < azimuths; ++p)
                 for (int c = 0; c < anisotropic_cosines; ++c) {
                     float const v = node(p, azimuths);
-                    out.value(
-                        integrate(d, direction(cosine_at(node(c, anisotropic_cosines)), 1 - v, v),
-                                  0)
-                            .white.white);
+                    out.value(integrate(d,
+                                        direction(cosine_at(node(c, anisotropic_cosines), greater),
+                                                  1 - v, v),
+                                        0)
+                                  .white.white);
                 }
         }
     out.close();
@@ -192,15 +193,18 @@ void write_dielectric(Writer& out, std::string const& name) {
                     float const ratio = std::max(index_at(node(e, indices)), 1.001f);
                     float const u = node(c, cosines), alpha = alpha_node(a, alphas);
                     float const eta = leaving ? 1 / ratio : ratio;
-                    float const cos_o = leaving ? leaving_cosine_at(u, eta) : cosine_at(u);
+                    float const cos_o =
+                        leaving ? leaving_cosine_at(u, eta, alpha) : fresnel_cosine_at(u, alpha);
                     sides[size_t(leaving)][size_t((e * alphas + a) * cosines + c)] =
                         integrate(Distribution{alpha, alpha}, direction(cos_o, 1, 0), eta)
                             .dielectric;
                 }
     out.open(name + "_dielectric");
-    for (auto const& side : sides)
-        for (auto const member : {&DielectricAlbedo::reflected, &DielectricAlbedo::transmitted})
-            for (DielectricAlbedo const& albedo : side) out.value(albedo.*member);
+    for (auto const& side : sides) {
+        for (DielectricAlbedo const& albedo : side)
+            out.value(double(power_coordinate(albedo.reflected + albedo.transmitted)));
+        for (DielectricAlbedo const& albedo : side) out.value(double(albedo.reflected));
+    }
     out.close();
 }
 
@@ -232,15 +236,16 @@ float weft::lobes::ashikhmin_shirley_area(float alpha, float a) {
 }
 
 int main() {
-    std::printf("// Written by tools/make_albedo_tables.cpp; see lobes/albedo.h for the axes.\n"
-                "// clang-format off\n"
-                "#pragma once\n\n"
-                "#include <cstdint>\n\n"
-                "namespace weft::lobes::albedo_tables {\n\n"
-                "// In 1 / 65535. Reflection: [moment][alpha][cosine]. Anisotropic:\n"
-                "// [greater alpha][ratio][azimuth][cosine]. Dielectric:\n"
-                "// [entering, leaving][reflected, transmitted][index][alpha][cosine]. Area:\n"
-                "// [alpha][slope].\n");
+    std::printf(
+        "// Written by tools/make_albedo_tables.cpp; see lobes/albedo.h for the axes.\n"
+        "// clang-format off\n"
+        "#pragma once\n\n"
+        "#include <cstdint>\n\n"
+        "namespace weft::lobes::albedo_tables {\n\n"
+        "// In 1 / 65535. Reflection: [moment][alpha][cosine]. Anisotropic:\n"
+        "// [greater alpha][ratio][azimuth][cosine]. Dielectric:\n"
+        "// [entering, leaving][power_coordinate(all), reflected][index][alpha][cosine]. Area:\n"
+        "// [alpha][slope].\n");
     Writer out;
     write_area(out);
     write_tables<Ggx>(out, "ggx");

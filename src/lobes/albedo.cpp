@@ -54,6 +54,15 @@ struct Tables<AshikhminShirley> {
 
 float mean_square_alpha(float x, float y) { return std::sqrt(0.5f * (x * x + y * y)); }
 
+/// Mostly the width of normals along the view's azimuth, which shadows what is transmitted.
+float alpha_along(float x, float y, Vec3 const& wo) {
+    if (x == y) return x;
+    constexpr float across = 0.1f; // leaves the least error
+    float const s2 = wo.x * wo.x + wo.y * wo.y;
+    float const cos2 = s2 > 0 ? square(wo.x) / s2 : 0.5f;
+    return std::sqrt(lerp(y * y, x * x, lerp(cos2, 1 - cos2, across)));
+}
+
 constexpr int kReflectionPart = alphas * cosines; // one of the moments
 constexpr int kDielectricPart = indices * alphas * cosines;
 
@@ -69,7 +78,7 @@ float anisotropic(uint16_t const* table, float alpha_x, float alpha_y, Vec3 cons
     Cell const cell_g(alpha_coordinate(greater), greater_alphas);
     Cell const cell_r(alpha_coordinate(lesser / greater), alpha_ratios);
     Cell const cell_p(azimuth_coordinate(u, v), azimuths);
-    Cell const cell_c(cosine_coordinate(std::max(wo.z, 0.f)), anisotropic_cosines);
+    Cell const cell_c(cosine_coordinate(std::max(wo.z, 0.f), greater), anisotropic_cosines);
     constexpr int row = anisotropic_cosines, slab = azimuths * row, book = alpha_ratios * slab;
     return look_up(table, book, cell_g, slab, cell_r, row, cell_p, cell_c) * kUnit;
 }
@@ -86,13 +95,14 @@ float white_albedo(D const& d, Vec3 const& wo) {
     if (d.alpha_x != d.alpha_y)
         return anisotropic(Tables<D>::anisotropic, d.alpha_x, d.alpha_y, wo);
     return isotropic(Tables<D>::reflection, Cell(alpha_coordinate(d.alpha_x), alphas),
-                     Cell(cosine_coordinate(std::max(wo.z, 0.f)), cosines));
+                     Cell(cosine_coordinate(std::max(wo.z, 0.f), d.alpha_x), cosines));
 }
 
 template <class D>
 ReflectionMoments reflection_moments(D const& d, Vec3 const& wo) {
-    Cell const a(alpha_coordinate(mean_square_alpha(d.alpha_x, d.alpha_y)), alphas);
-    Cell const c(cosine_coordinate(std::max(wo.z, 0.f)), cosines);
+    float const alpha = mean_square_alpha(d.alpha_x, d.alpha_y);
+    Cell const a(alpha_coordinate(alpha), alphas);
+    Cell const c(cosine_coordinate(std::max(wo.z, 0.f), alpha), cosines);
     auto const moment = [&](int i) {
         return look_up(Tables<D>::reflection + i * kReflectionPart, cosines, a, c) * kUnit;
     };
@@ -109,23 +119,22 @@ ReflectionMoments reflection_moments(D const& d, Vec3 const& wo) {
 template <class D>
 DielectricAlbedo dielectric_albedo(D const& d, Vec3 const& wo, float eta) {
     bool const leaving = eta < 1;
-    float const c = std::min(std::max(wo.z, 0.f), 1.f);
+    float const c = std::min(std::max(wo.z, 0.f), 1.f),
+                alpha = alpha_along(d.alpha_x, d.alpha_y, wo);
     Cell const cell_e(index_coordinate(leaving ? 1 / eta : eta), indices);
-    Cell const cell_a(alpha_coordinate(mean_square_alpha(d.alpha_x, d.alpha_y)), alphas);
-    Cell const cell_c(leaving ? leaving_cosine_coordinate(c, eta) : cosine_coordinate(c), cosines);
+    Cell const cell_a(alpha_coordinate(alpha), alphas);
+    Cell const cell_c(leaving ? leaving_cosine_coordinate(c, eta, alpha)
+                              : fresnel_cosine_coordinate(c, alpha),
+                      cosines);
     uint16_t const* const side = Tables<D>::dielectric + (leaving ? 2 * kDielectricPart : 0);
     auto const part = [&](int i) {
         return look_up(side + i * kDielectricPart, alphas * cosines, cell_e, cosines, cell_a,
                        cell_c) *
                kUnit;
     };
-    DielectricAlbedo albedo{part(0), part(1)};
-    if (d.alpha_x != d.alpha_y) {
-        float const ratio = white_albedo(d, wo) / isotropic(Tables<D>::reflection, cell_a,
-                                                            Cell(cosine_coordinate(c), cosines));
-        albedo.reflected = std::min(albedo.reflected * ratio, 1.f - albedo.transmitted);
-    }
-    return albedo;
+    float const all = power_at(part(0));
+    float const reflected = std::min(part(1), all);
+    return {reflected, all - reflected};
 }
 
 template float white_albedo(Ggx const&, Vec3 const&);

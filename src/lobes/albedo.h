@@ -5,8 +5,8 @@
 // tools/make_albedo_tables.cpp writes the tables (albedo_tables.h) on the grids declared here.
 // Between nodes they are interpolated linearly. Alphas beyond 1 and indices beyond 4 (or below
 // 1 / 4) are taken at that bound. The white albedo of anisotropic reflection has a table of its
-// own; the rest of what is anisotropic is looked up at the root mean square of the alphas and, for
-// reflections, scaled by the ratio of the white albedos. tests/lobes measures and bounds the
+// own, and scales the other moments, looked up at the root mean square of the alphas. Anisotropic
+// dielectrics are looked up at about the alpha along the view. tests/lobes measures and bounds the
 // errors.
 #pragma once
 
@@ -21,7 +21,7 @@ namespace weft::lobes {
 namespace albedo_grid {
 inline constexpr int cosines = 33; ///< odd: the dielectrics put a node on the critical angle
 inline constexpr int alphas = 15;
-inline constexpr int indices = 9;
+inline constexpr int indices = 13;
 // Anisotropic reflection: the greater alpha, the lesser over the greater, azimuth, cosine.
 inline constexpr int greater_alphas = 10, alpha_ratios = 7, azimuths = 7, anisotropic_cosines = 17;
 inline constexpr int area_alphas = 13, area_slopes = 33; ///< of ashikhmin_shirley_area
@@ -40,21 +40,47 @@ inline float index_at(float coordinate) {
     float const c = square(coordinate) * max_contrast;
     return (1 + c) / (1 - c);
 }
-inline float cosine_coordinate(float c) { return std::sqrt(c); }
-inline float cosine_at(float coordinate) { return square(coordinate); }
-/// Leaving the denser medium: the lower half holds total reflection, densest at the critical
-/// angle; the upper half is linear in the refracted cosine, in which Fresnel reflectance has no
-/// kink. eta <= 1.
-inline float leaving_cosine_coordinate(float c, float eta) {
+/// All happens on the scale of alpha near grazing angles: takes [0, 1] onto itself with half of it
+/// for cosines below alpha / 3 or so.
+inline float cosine_coordinate(float c, float alpha) {
+    return std::sqrt(c * (1 + alpha) / (c + alpha));
+}
+inline float cosine_at(float coordinate, float alpha) {
+    float const q = square(coordinate);
+    return std::min(alpha * q / (1 + alpha - q), 1.f);
+}
+/// For dielectrics: half of the nodes on the scale of alpha, half on that of Fresnel's equations.
+inline float fresnel_cosine_coordinate(float c, float alpha) {
+    return 0.5f * (std::sqrt(c) + cosine_coordinate(c, alpha));
+}
+/// By bisection: for the table's maker.
+inline float fresnel_cosine_at(float coordinate, float alpha) {
+    float low = 0, high = 1;
+    for (int i = 0; i < 40; ++i) {
+        float const middle = 0.5f * (low + high);
+        (fresnel_cosine_coordinate(middle, alpha) < coordinate ? low : high) = middle;
+    }
+    return high;
+}
+/// Leaving the denser medium: the lower half holds total reflection, dense at both of its ends;
+/// the upper half follows the refracted cosine, in which Fresnel reflectance has no kink. eta <= 1.
+inline float leaving_cosine_coordinate(float c, float eta, float alpha) {
     float const k = (eta - 1) * (eta + 1) + c * c, critical = std::sqrt((1 - eta) * (1 + eta));
-    if (k >= 0) return 0.5f + 0.5f * std::sqrt(k) / eta;
-    return 0.5f - 0.5f * safe_sqrt(1 - c / critical);
+    if (k >= 0)
+        return 0.5f + 0.5f * fresnel_cosine_coordinate(std::min(std::sqrt(k) / eta, 1.f), alpha);
+    return 0.5f * fresnel_cosine_coordinate(1 - safe_sqrt(1 - c / critical), alpha);
 }
-inline float leaving_cosine_at(float coordinate, float eta) {
+inline float leaving_cosine_at(float coordinate, float eta, float alpha) {
     float const critical2 = (1 - eta) * (1 + eta);
-    if (coordinate < 0.5f) return std::sqrt(critical2) * (1 - square(1 - 2 * coordinate));
-    return std::sqrt(critical2 + square(eta * (2 * coordinate - 1)));
+    if (coordinate >= 0.5f)
+        return std::sqrt(critical2 + square(eta * fresnel_cosine_at(2 * coordinate - 1, alpha)));
+    return std::sqrt(critical2) * (1 - square(1 - fresnel_cosine_at(2 * coordinate, alpha)));
 }
+/// What leaves rough glass at grazing angles spans decades: its logarithm is tabulated.
+inline float power_coordinate(float power) {
+    return 1 + std::log(std::max(power, 1e-4f)) / 9.2104f;
+}
+inline float power_at(float coordinate) { return std::exp((coordinate - 1) * 9.2104f); }
 /// From 0 along the axis of the greater alpha to 1 along the other; u, v >= 0 are the components
 /// of wo along them.
 inline float azimuth_coordinate(float u, float v) {

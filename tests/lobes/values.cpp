@@ -103,6 +103,7 @@ TEST(SmoothLobes, StaySoundAtTheEdges) {
 
 TEST(SmoothLobes, AreReciprocal) {
     for_each_configuration<true>([&]<class L>(Configuration<L> const& c) {
+        if (!c.reciprocal) return;
         Rng rng(hash_bytes(c.name));
         int compared = 0, faults = 0;
         for (int i = 0; i < 4000 && faults < 3; ++i) {
