@@ -19,56 +19,132 @@ struct Cell {
     }
 };
 
+/// Interpolates a table whose axes follow `cell`, slowest first, after an offset of whole slabs.
+inline float look_up(uint16_t const* row, Cell const& c) {
+    return lerp(row[c.index], row[c.index + 1], c.t);
+}
+template <class... Faster>
+float look_up(uint16_t const* table, int stride, Cell const& c, Faster const&... faster) {
+    uint16_t const* const slab = table + c.index * stride;
+    return lerp(look_up(slab, faster...), look_up(slab + stride, faster...), c.t);
+}
+
+constexpr float kUnit = 1 / 65535.f;
+
+template <class Distribution>
+struct Tables;
+template <>
+struct Tables<Ggx> {
+    static constexpr auto const& reflection = albedo_tables::ggx_reflection;
+    static constexpr auto const& anisotropic = albedo_tables::ggx_anisotropic;
+    static constexpr auto const& dielectric = albedo_tables::ggx_dielectric;
+};
+template <>
+struct Tables<Beckmann> {
+    static constexpr auto const& reflection = albedo_tables::beckmann_reflection;
+    static constexpr auto const& anisotropic = albedo_tables::beckmann_anisotropic;
+    static constexpr auto const& dielectric = albedo_tables::beckmann_dielectric;
+};
+template <>
+struct Tables<AshikhminShirley> {
+    static constexpr auto const& reflection = albedo_tables::ashikhmin_shirley_reflection;
+    static constexpr auto const& anisotropic = albedo_tables::ashikhmin_shirley_anisotropic;
+    static constexpr auto const& dielectric = albedo_tables::ashikhmin_shirley_dielectric;
+};
+
 float mean_square_alpha(float x, float y) { return std::sqrt(0.5f * (x * x + y * y)); }
 
-constexpr int kSlab = alphas * cosines; // one index; kSlab * indices is one part of a side
-
-float look_up(uint16_t const* slab, Cell const& a, Cell const& c) {
-    auto const row = [&](int i) {
-        uint16_t const* const p = slab + i * cosines + c.index;
-        return lerp(p[0], p[1], c.t);
-    };
-    return lerp(row(a.index), row(a.index + 1), a.t) * (1 / 65535.f);
+/// Mostly the width of normals along the view's azimuth, which shadows what is transmitted.
+float alpha_along(float x, float y, Vec3 const& wo) {
+    if (x == y) return x;
+    constexpr float across = 0.1f; // leaves the least error
+    float const s2 = wo.x * wo.x + wo.y * wo.y;
+    float const cos2 = s2 > 0 ? square(wo.x) / s2 : 0.5f;
+    return std::sqrt(lerp(y * y, x * x, lerp(cos2, 1 - cos2, across)));
 }
 
-float look_up(uint16_t const* part, Cell const& e, Cell const& a, Cell const& c) {
-    uint16_t const* const slab = part + e.index * kSlab;
-    return lerp(look_up(slab, a, c), look_up(slab + kSlab, a, c), e.t);
+constexpr int kReflectionPart = alphas * cosines; // one of the moments
+constexpr int kDielectricPart = indices * alphas * cosines;
+
+/// The white albedo, isotropic.
+float isotropic(uint16_t const* reflection, Cell const& a, Cell const& c) {
+    return look_up(reflection, cosines, a, c) * kUnit;
 }
 
-float reflection(uint16_t const* table, float alpha, float cos_o) {
-    return look_up(table, Cell(alpha_coordinate(alpha), alphas),
-                   Cell(cosine_coordinate(std::max(cos_o, 0.f)), cosines));
-}
-
-DielectricAlbedo dielectric(uint16_t const* table, float alpha, float cos_o, float eta) {
-    bool const leaving = eta < 1;
-    float const c = std::min(std::max(cos_o, 0.f), 1.f);
-    Cell const cell_e(index_coordinate(leaving ? 1 / eta : eta), indices);
-    Cell const cell_a(alpha_coordinate(alpha), alphas);
-    Cell const cell_c(leaving ? leaving_cosine_coordinate(c, eta) : cosine_coordinate(c), cosines);
-    constexpr int part = kSlab * indices;
-    uint16_t const* const side = table + (leaving ? 2 * part : 0);
-    return {look_up(side, cell_e, cell_a, cell_c), look_up(side + part, cell_e, cell_a, cell_c)};
+float anisotropic(uint16_t const* table, float alpha_x, float alpha_y, Vec3 const& wo) {
+    bool const along_x = alpha_x >= alpha_y;
+    float const greater = along_x ? alpha_x : alpha_y, lesser = along_x ? alpha_y : alpha_x;
+    float const u = std::abs(along_x ? wo.x : wo.y), v = std::abs(along_x ? wo.y : wo.x);
+    Cell const cell_g(alpha_coordinate(greater), greater_alphas);
+    Cell const cell_r(alpha_coordinate(lesser / greater), alpha_ratios);
+    Cell const cell_p(azimuth_coordinate(u, v), azimuths);
+    Cell const cell_c(cosine_coordinate(std::max(wo.z, 0.f), greater), anisotropic_cosines);
+    constexpr int row = anisotropic_cosines, slab = azimuths * row, book = alpha_ratios * slab;
+    return look_up(table, book, cell_g, slab, cell_r, row, cell_p, cell_c) * kUnit;
 }
 
 } // namespace
 
-float reflection_albedo(Ggx const& d, float cos_o) {
-    return reflection(albedo_tables::ggx_reflection, mean_square_alpha(d.alpha_x, d.alpha_y),
-                      cos_o);
+float ashikhmin_shirley_area(float alpha, float a) {
+    Cell const cell_a(alpha, area_alphas), cell_t(area_slope_coordinate(a), area_slopes);
+    return look_up(albedo_tables::ashikhmin_shirley_area, area_slopes, cell_a, cell_t) * kUnit;
 }
-float reflection_albedo(Beckmann const& d, float cos_o) {
-    return reflection(albedo_tables::beckmann_reflection, mean_square_alpha(d.alpha_x, d.alpha_y),
-                      cos_o);
+
+template <class D>
+float white_albedo(D const& d, Vec3 const& wo) {
+    if (d.alpha_x != d.alpha_y)
+        return anisotropic(Tables<D>::anisotropic, d.alpha_x, d.alpha_y, wo);
+    return isotropic(Tables<D>::reflection, Cell(alpha_coordinate(d.alpha_x), alphas),
+                     Cell(cosine_coordinate(std::max(wo.z, 0.f), d.alpha_x), cosines));
 }
-DielectricAlbedo dielectric_albedo(Ggx const& d, float cos_o, float eta) {
-    return dielectric(albedo_tables::ggx_dielectric, mean_square_alpha(d.alpha_x, d.alpha_y), cos_o,
-                      eta);
+
+template <class D>
+ReflectionMoments reflection_moments(D const& d, Vec3 const& wo) {
+    float const alpha = mean_square_alpha(d.alpha_x, d.alpha_y);
+    Cell const a(alpha_coordinate(alpha), alphas);
+    Cell const c(cosine_coordinate(std::max(wo.z, 0.f), alpha), cosines);
+    auto const moment = [&](int i) {
+        return look_up(Tables<D>::reflection + i * kReflectionPart, cosines, a, c) * kUnit;
+    };
+    ReflectionMoments m{moment(0), moment(1), moment(2), moment(3), moment(4)};
+    if (d.alpha_x != d.alpha_y) {
+        float const ratio = white_albedo(d, wo) / m.white;
+        m.white *= ratio;
+        m.schlick *= ratio;
+        m.edge *= ratio;
+    }
+    return m;
 }
-DielectricAlbedo dielectric_albedo(Beckmann const& d, float cos_o, float eta) {
-    return dielectric(albedo_tables::beckmann_dielectric, mean_square_alpha(d.alpha_x, d.alpha_y),
-                      cos_o, eta);
+
+template <class D>
+DielectricAlbedo dielectric_albedo(D const& d, Vec3 const& wo, float eta) {
+    bool const leaving = eta < 1;
+    float const c = std::min(std::max(wo.z, 0.f), 1.f),
+                alpha = alpha_along(d.alpha_x, d.alpha_y, wo);
+    Cell const cell_e(index_coordinate(leaving ? 1 / eta : eta), indices);
+    Cell const cell_a(alpha_coordinate(alpha), alphas);
+    Cell const cell_c(leaving ? leaving_cosine_coordinate(c, eta, alpha)
+                              : fresnel_cosine_coordinate(c, alpha),
+                      cosines);
+    uint16_t const* const side = Tables<D>::dielectric + (leaving ? 2 * kDielectricPart : 0);
+    auto const part = [&](int i) {
+        return look_up(side + i * kDielectricPart, alphas * cosines, cell_e, cosines, cell_a,
+                       cell_c) *
+               kUnit;
+    };
+    float const all = power_at(part(0));
+    float const reflected = std::min(part(1), all);
+    return {reflected, all - reflected};
 }
+
+template float white_albedo(Ggx const&, Vec3 const&);
+template float white_albedo(Beckmann const&, Vec3 const&);
+template float white_albedo(AshikhminShirley const&, Vec3 const&);
+template ReflectionMoments reflection_moments(Ggx const&, Vec3 const&);
+template ReflectionMoments reflection_moments(Beckmann const&, Vec3 const&);
+template ReflectionMoments reflection_moments(AshikhminShirley const&, Vec3 const&);
+template DielectricAlbedo dielectric_albedo(Ggx const&, Vec3 const&, float);
+template DielectricAlbedo dielectric_albedo(Beckmann const&, Vec3 const&, float);
+template DielectricAlbedo dielectric_albedo(AshikhminShirley const&, Vec3 const&, float);
 
 } // namespace weft::lobes

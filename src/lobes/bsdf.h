@@ -39,7 +39,8 @@ namespace weft::lobes {
 /// Every kind of lobe. All are trivially copyable and destructible.
 using LobeVariant =
     std::variant<Lambert, SpecularReflection, SpecularDielectric, GgxReflection, BeckmannReflection,
-                 GgxDielectric, BeckmannDielectric, OrenNayar, BurleyDiffuse, DiffuseTransmission,
+                 AshikhminShirleyReflection, GgxDielectric, BeckmannDielectric,
+                 AshikhminShirleyDielectric, OrenNayar, BurleyDiffuse, DiffuseTransmission,
                  Transparent, Sheen, DisneySheen, Clearcoat, Hair>;
 
 struct Lobe {

@@ -1,5 +1,6 @@
 // Microfacet distributions with Smith shadowing: GGX (Trowbridge and Reitz 1975; Walter et al.
-// 2007) and Beckmann (Beckmann and Spizzichino 1963), both anisotropic.
+// 2007) and Beckmann (Beckmann and Spizzichino 1963), both anisotropic. ashikhmin_shirley.h has a
+// third with the same members.
 //
 // The usual G1 divides by cosines that vanish at grazing angles. Here everything is written with
 // the projected area of the microsurface, sigma(w) = w.z / G1(w) = w.z (1 + Lambda(w)) (Heitz
@@ -10,6 +11,11 @@
 // G2 correlates heights: 1 / (1 + Lo + Li) above the surface (Heitz 2014, eq. 99) and
 // B(1 + Lo, 1 + Li) across it (Heitz et al. 2016, "Multiple-scattering microfacet BSDFs with the
 // Smith model"; B is the beta function).
+//
+// Samplers need not follow visible normals exactly: a distribution draws m with the density
+// D(m) max(0, wo.m) / sampling_area(wo, m, sigma(wo)), or, for lobes that only reflect, with
+// reflecting_area in that place, which keeps off normals that reflect below the surface. It may
+// decide by a third number, `spare` in [0, 1), and then stretches what is left of that again.
 //
 // Alphas are in [1e-3, 1], clamped by whoever makes them: float directions resolve no less.
 // Left out: light that meets the microsurface more than once.
@@ -66,14 +72,37 @@ struct Ggx {
         float const z = std::abs(w.z);
         return 0.5f * (z + std::sqrt(square(alpha_x * w.x) + square(alpha_y * w.y) + z * z));
     }
+    Vec3 sample_visible_normal(Vec3 const& wo, Vec2 u, float&) const {
+        return sample_cap(wo, u, 0);
+    }
+    float sampling_area(Vec3 const&, Vec3 const&, float sigma_o) const { return sigma_o; }
+
+    /// Of the visible normals mostly those that reflect to above the surface: Eto and Tokuyoshi
+    /// 2023, "Bounded VNDF sampling for Smith-GGX reflections".
+    Vec3 sample_reflecting_normal(Vec3 const& wo, Vec2 u, float&) const {
+        return sample_cap(wo, u, cap_shrinkage(wo));
+    }
+    float reflecting_area(Vec3 const& wo, Vec3 const&, float sigma_o) const {
+        return sigma_o - 0.5f * cap_shrinkage(wo) * wo.z;
+    }
+
+  private:
+    /// 1 - k, where the bounded cap ends at the height -k w.z (eq. 5 there; k without its
+    /// cancellation).
+    float cap_shrinkage(Vec3 const& wo) const {
+        float const a2 = square(std::min(alpha_x, alpha_y)), z2 = square(wo.z);
+        float const s2 = square(1 + std::sqrt(wo.x * wo.x + wo.y * wo.y));
+        return a2 * (s2 + z2) / (s2 + a2 * z2);
+    }
     /// A visible normal by spherical caps: Dupuy and Benyoub 2023, "Sampling visible GGX normals
-    /// with spherical caps".
-    Vec3 sample_visible_normal(Vec3 const& wo, Vec2 u) const {
+    /// with spherical caps". The cap holds z in ((shrinkage - 1) w.z, 1].
+    Vec3 sample_cap(Vec3 const& wo, Vec2 u, float shrinkage) const {
         Vec3 const w = normalize(Vec3(alpha_x * wo.x, alpha_y * wo.y, wo.z));
         float const phi = 2 * kPi * u.x;
-        // The cap holds z in (-w.z, 1]. Heights are kept relative to w's and to the pole's
-        // antipode, where the subtraction would eat the tail of the distribution.
-        float const above = (1 - u.y) * (1 + w.z);
+        // Heights are kept relative to w's and to the pole's antipode, where the subtraction
+        // would eat the tail of the distribution.
+        float const cut = shrinkage * w.z;
+        float const above = (1 - u.y) * (1 + w.z - cut) + cut;
         float const one_plus_z = above + (w.x * w.x + w.y * w.y) / (1 + w.z);
         float const r = safe_sqrt(one_plus_z * (2 - one_plus_z));
         return normalize(
@@ -121,7 +150,7 @@ struct Beckmann {
     }
     /// A visible normal by its slopes: Heitz and d'Eon 2014, "Importance sampling microfacet-based
     /// BSDFs using the distribution of visible normals".
-    Vec3 sample_visible_normal(Vec3 const& wo, Vec2 u) const {
+    Vec3 sample_visible_normal(Vec3 const& wo, Vec2 u, float&) const {
         Vec3 const w = normalize(Vec3(alpha_x * wo.x, alpha_y * wo.y, wo.z));
         float const s = std::sqrt(w.x * w.x + w.y * w.y);
         float const along = visible_slope(w.z, s, u.x), across = erf_inverse(2 * u.y - 1);
@@ -129,6 +158,11 @@ struct Beckmann {
         return normalize(Vec3(-alpha_x * (along * cos_phi - across * sin_phi),
                               -alpha_y * (along * sin_phi + across * cos_phi), 1));
     }
+    Vec3 sample_reflecting_normal(Vec3 const& wo, Vec2 u, float& spare) const {
+        return sample_visible_normal(wo, u, spare);
+    }
+    float sampling_area(Vec3 const&, Vec3 const&, float sigma_o) const { return sigma_o; }
+    float reflecting_area(Vec3 const&, Vec3 const&, float sigma_o) const { return sigma_o; }
 
   private:
     static constexpr float kInvSqrtPi = 0.56418958354775628695f;

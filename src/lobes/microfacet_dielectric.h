@@ -1,7 +1,13 @@
 // A rough boundary between two dielectrics: Walter et al. 2007, "Microfacet models for refraction
 // through rough surfaces", with visible-normal sampling and height-correlated shadowing on either
-// side. Reflection and transmission share one microsurface and the exact Fresnel equations, each
-// with a tint of its own. Radiance that crosses is scaled by 1 / eta^2 (see lobe.h).
+// side. Reflection and transmission share one microsurface, whose facets share light out as
+// dielectric_boundary.h says, each with a tint of its own. Radiance that crosses is scaled by
+// 1 / eta^2 (see lobe.h).
+//
+// Where `compensated`, what single scattering loses comes back by the factor 1 / E(wo), E being
+// the untinted boundary's albedo (Turquin 2019; see microfacet_reflection.h), so that untinted
+// glass of any roughness keeps all light. Tints act once. Boundaries with options get back less
+// where they reflect more than plain ones, and anisotropic ones get back nothing.
 //
 // A refracted lobe is about alpha |eta - 1| wide and its half vector about |eta - 1| long. Floats
 // resolve directions to about 1e-7, so that `eta` is kept max(1e-3, 1e-5 / alpha) away from 1
@@ -9,7 +15,8 @@
 #pragma once
 
 #include "lobes/albedo.h"
-#include "lobes/fresnel.h"
+#include "lobes/dielectric_boundary.h"
+#include "lobes/fresnel_model.h"
 #include "lobes/lobe.h"
 #include "lobes/microfacet.h"
 
@@ -20,9 +27,11 @@ class MicrofacetDielectric {
   public:
     /// `eta` = index on the far side / index on wo's side, > 0. Tints are in [0, 1].
     MicrofacetDielectric(Distribution const& distribution, float eta,
-                         Color const& reflectance = Color(1), Color const& transmittance = Color(1))
+                         Color const& reflectance = Color(1), Color const& transmittance = Color(1),
+                         BoundaryOptions const& options = {}, bool compensated = false)
         : distribution_(distribution), eta_(resolvable_eta(distribution, eta)),
-          reflectance_(reflectance), transmittance_(transmittance) {}
+          reflectance_(reflectance), transmittance_(transmittance), options_(options),
+          compensated_(compensated) {}
 
     static constexpr LobeFlags flags() {
         return LobeFlags::Reflection | LobeFlags::Transmission | LobeFlags::Glossy;
@@ -32,20 +41,25 @@ class MicrofacetDielectric {
     float eta_scale() const { return square(eta_); }
     Color const& reflectance() const { return reflectance_; }
     Color const& transmittance() const { return transmittance_; }
+    BoundaryOptions const& options() const { return options_; }
+    bool compensated() const { return compensated_; }
 
     LobeValue eval(Vec3 const& wo, Vec3 const& wi) const {
-        return wi.z > 0   ? eval_reflection(wo, wi)
-               : wi.z < 0 ? eval_transmission(wo, wi)
-                          : LobeValue{};
+        LobeValue v = wi.z > 0   ? eval_reflection(wo, wi)
+                      : wi.z < 0 ? eval_transmission(wo, wi)
+                                 : LobeValue{};
+        if (compensated_ && v.pdf > 0) v.f *= compensation(wo);
+        return v;
     }
 
     Vec3 sample(Vec3 const& wo, Vec3 const& u) const {
-        Vec3 const m = distribution_.sample_visible_normal(wo, {u.x, u.y});
+        float spare = u.z;
+        Vec3 const m = distribution_.sample_visible_normal(wo, {u.x, u.y}, spare);
         float const cos_o = dot(wo, m);
         if (!(cos_o > 0)) return Vec3(0);
         float cos_t;
         float const fresnel = fresnel_dielectric(cos_o, eta_, cos_t);
-        if (u.z < reflect_probability(fresnel)) {
+        if (spare < reflect_probability(tinted(fresnel, cos_o, cos_t))) {
             Vec3 const wi = reflect(wo, m);
             return wi.z > 0 ? normalize(wi) : Vec3(0);
         }
@@ -55,8 +69,12 @@ class MicrofacetDielectric {
     }
 
     Color albedo(Vec3 const& wo) const {
-        auto const [reflected, transmitted] = dielectric_albedo(distribution_, wo.z, eta_);
-        return reflectance_ * reflected + transmittance_ * transmitted;
+        DielectricAlbedo const plain = dielectric_albedo(distribution_, wo, eta_);
+        BoundarySplit const split = rough_split(wo, plain);
+        Color const sum = reflectance_ * split.reflected + transmittance_ * split.transmitted;
+        if (!compensated_) return sum;
+        Color const all = sum * compensation(wo, plain);
+        return {std::min(all.r, 1.f), std::min(all.g, 1.f), std::min(all.b, 1.f)};
     }
 
   private:
@@ -64,14 +82,19 @@ class MicrofacetDielectric {
         Vec3 const sum = wo + wi;
         float const sum_length = length(sum);
         Vec3 const h = sum * (1 / sum_length);
+        float const quarter_density = 0.25f * distribution_.density(h);
+        if (!(quarter_density > 0)) return {};
         // wo.h is half the length of the sum, and that is the same seen from wi.
-        float const fresnel = fresnel_dielectric(0.5f * sum_length, eta_);
+        float const cos_o = 0.5f * sum_length;
+        float cos_t;
+        float const fresnel = fresnel_dielectric(cos_o, eta_, cos_t);
+        BoundarySplit const split = tinted(fresnel, cos_o, cos_t);
         float const sigma_o = distribution_.projected_area(wo);
         float const sigma_i = distribution_.projected_area(wi);
-        float const density = distribution_.density(h) / (4 * sigma_o);
         float const weight = shadowing_above(wo.z, sigma_o, wi.z, sigma_i);
-        return {reflectance_ * (fresnel * density * weight),
-                density * reflect_probability(fresnel)};
+        return {split.reflected * (quarter_density * weight / sigma_o),
+                quarter_density / distribution_.sampling_area(wo, h, sigma_o) *
+                    reflect_probability(split)};
     }
 
     LobeValue eval_transmission(Vec3 const& wo, Vec3 const& wi) const {
@@ -82,22 +105,59 @@ class MicrofacetDielectric {
         Vec3 const h = sum * ((eta_ > 1 ? -1.f : 1.f) / std::sqrt(sum2));
         float const cos_o = dot(wo, h), cos_i = dot(wi, h);
         if (!(cos_o > 0 && cos_i < 0)) return {};
+        float const jacobian = -cos_i / sum2; // of h in wi, over eta^2
+        float const density = distribution_.density(h) * cos_o * jacobian;
+        if (!(density > 0)) return {};
         float const fresnel = fresnel_dielectric_cosines(cos_o, -cos_i, eta_);
+        BoundarySplit const split = tinted(fresnel, cos_o, -cos_i);
         float const sigma_o = distribution_.projected_area(wo);
         float const sigma_i = distribution_.projected_area(wi);
-        float const jacobian = -cos_i / sum2; // of h in wi, over eta^2
-        float const density = distribution_.density(h) * cos_o / sigma_o * jacobian;
         float const weight = shadowing_across(wo.z, sigma_o, -wi.z, sigma_i);
-        return {transmittance_ * ((1 - fresnel) * density * weight),
-                density * square(eta_) * transmit_probability(fresnel)};
+        return {split.transmitted * (density * weight / sigma_o),
+                density / distribution_.sampling_area(wo, h, sigma_o) * square(eta_) *
+                    (1 - reflect_probability(split))};
     }
 
-    float reflect_probability(float fresnel) const {
-        float const r = fresnel * average(reflectance_);
-        float const t = (1 - fresnel) * average(transmittance_);
+    BoundarySplit tinted(float fresnel, float cos_o, float cos_t) const {
+        BoundarySplit const s = split_light(options_, eta_, fresnel, cos_o, cos_t);
+        return {reflectance_ * s.reflected, transmittance_ * s.transmitted};
+    }
+    static float reflect_probability(BoundarySplit const& split) {
+        float const r = average(split.reflected), t = average(split.transmitted);
         return r > 0 ? r / (r + t) : 0.f;
     }
-    float transmit_probability(float fresnel) const { return 1 - reflect_probability(fresnel); }
+    float compensation(Vec3 const& wo) const {
+        return compensation(wo, dielectric_albedo(distribution_, wo, eta_));
+    }
+    float compensation(Vec3 const& wo, DielectricAlbedo const& plain) const {
+        // Too little is known of anisotropic transmission to rule out that light is gained.
+        if (distribution_.alpha_x != distribution_.alpha_y) return 1;
+        float const all = plain.reflected + plain.transmitted;
+        bool const as_plain = !options_.film && !(options_.reflection_eta > 0);
+        // Where more is reflected than plainly, at most what a mirror keeps is kept.
+        return 1 / (as_plain ? all : std::max(all, white_albedo(distribution_, wo)));
+    }
+
+    /// What `plain` becomes with the options, untinted. A film's is an estimate from two angles of
+    /// incidence.
+    BoundarySplit rough_split(Vec3 const& wo, DielectricAlbedo const& plain) const {
+        if (options_.film) {
+            Color const r = rough_reflectance(ThinFilmFresnel{options_.film, Color(eta_), Color(0)},
+                                              reflection_moments(distribution_, wo));
+            Color const all(plain.reflected + plain.transmitted);
+            return {r,
+                    {std::max(all.r - r.r, 0.f), std::max(all.g - r.g, 0.f),
+                     std::max(all.b - r.b, 0.f)}};
+        }
+        if (options_.reflection_eta > 0) {
+            DielectricAlbedo const other =
+                dielectric_albedo(distribution_, wo, options_.reflection_eta);
+            float const all = plain.reflected + plain.transmitted;
+            return {Color(other.reflected),
+                    Color(std::min(plain.transmitted, std::max(all - other.reflected, 0.f)))};
+        }
+        return {Color(plain.reflected), Color(plain.transmitted)};
+    }
 
     static float resolvable_eta(Distribution const& d, float eta) {
         float const gap = std::max(1e-3f, 1e-5f / std::min(d.alpha_x, d.alpha_y));
@@ -107,11 +167,15 @@ class MicrofacetDielectric {
     Distribution distribution_;
     float eta_;
     Color reflectance_, transmittance_;
+    BoundaryOptions options_;
+    bool compensated_;
 };
 
 using GgxDielectric = MicrofacetDielectric<Ggx>;
 using BeckmannDielectric = MicrofacetDielectric<Beckmann>;
+using AshikhminShirleyDielectric = MicrofacetDielectric<AshikhminShirley>;
 
-static_assert(SmoothLobe<GgxDielectric> && SmoothLobe<BeckmannDielectric>);
+static_assert(SmoothLobe<GgxDielectric> && SmoothLobe<BeckmannDielectric> &&
+              SmoothLobe<AshikhminShirleyDielectric>);
 
 } // namespace weft::lobes

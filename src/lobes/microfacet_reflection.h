@@ -1,24 +1,27 @@
 // Rough reflection off a microsurface (Cook and Torrance 1982; Heitz 2014):
-//     f cos = F D G2 / (4 wo.z),  sampled by visible normals, density D G1(wo) / (4 wo.z).
-// `Fresnel` maps the cosine between wo and the half vector to a Color in [0, 1]; the default is
-// white and leaves the tint to the list's weight.
+//     f cos = F D G2 / (4 wo.z),
+// sampled by normals that reflect to above the surface where the distribution can tell, else by
+// visible normals: the density is D / (4 reflecting_area).
+//
+// What light loses by not leaving at its first bounce comes back, where `compensated`, by a
+// factor that depends on wo (Turquin 2019, "Practical multiple scattering compensation for
+// microfacet models"): with E the white albedo and Fm the mean reflectance,
+//     1 / (1 - Fm (1 - E)),
+// the sum over bounces that each leave by E. A white surface then reflects exactly all. Kulla and
+// Conty's extra lobe (2017) is reciprocal, which this is not, but needs sampling of its own, adds
+// noise, and has no counterpart for anisotropic surfaces; paths are only traced from the eye.
 #pragma once
 
-#include "lobes/albedo.h"
-#include "lobes/fresnel.h"
+#include "lobes/fresnel_model.h"
 #include "lobes/lobe.h"
-#include "lobes/microfacet.h"
 
 namespace weft::lobes {
 
-struct WhiteFresnel {
-    constexpr Color operator()(float) const { return Color(1); }
-};
-
-template <class Distribution, class Fresnel = WhiteFresnel>
+template <class Distribution>
 struct MicrofacetReflection {
     Distribution distribution;
-    [[no_unique_address]] Fresnel fresnel{};
+    Fresnel fresnel{};
+    bool compensated = false; ///< for multiple scattering
 
     static constexpr LobeFlags flags() { return LobeFlags::Reflection | LobeFlags::Glossy; }
     LobeValue eval(Vec3 const& wo, Vec3 const& wi) const {
@@ -26,23 +29,46 @@ struct MicrofacetReflection {
         Vec3 const h = normalize(wo + wi); // not 0: both have positive z
         float const sigma_o = distribution.projected_area(wo);
         float const sigma_i = distribution.projected_area(wi);
-        float const pdf = distribution.density(h) / (4 * sigma_o);
-        float const weight = shadowing_above(wo.z, sigma_o, wi.z, sigma_i);
-        return {fresnel(dot(wo, h)) * (pdf * weight), pdf};
+        float const quarter_density = 0.25f * distribution.density(h);
+        if (!(quarter_density > 0)) return {};
+        float const value =
+            quarter_density * shadowing_above(wo.z, sigma_o, wi.z, sigma_i) / sigma_o;
+        Color f = reflectance(fresnel, dot(wo, h)) * value;
+        if (compensated) f *= compensation(white_albedo(distribution, wo));
+        return {f, quarter_density / distribution.reflecting_area(wo, h, sigma_o)};
     }
     Vec3 sample(Vec3 const& wo, Vec3 const& u) const {
-        Vec3 const wi = reflect(wo, distribution.sample_visible_normal(wo, {u.x, u.y}));
+        float spare = u.z;
+        Vec3 const m = distribution.sample_reflecting_normal(wo, {u.x, u.y}, spare);
+        Vec3 const wi = reflect(wo, m);
         return wi.z > 0 ? normalize(wi) : Vec3(0);
     }
-    /// With F taken at the normal: exact for white, an estimate for a Fresnel that varies.
     Color albedo(Vec3 const& wo) const {
-        return fresnel(wo.z) * reflection_albedo(distribution, wo.z);
+        if (std::holds_alternative<WhiteFresnel>(fresnel))
+            return Color(compensated ? 1.f : white_albedo(distribution, wo));
+        ReflectionMoments const m = reflection_moments(distribution, wo);
+        Color const once = rough_albedo(wo, m);
+        return compensated ? once * compensation(m.white) : once;
+    }
+
+  private:
+    Color rough_albedo(Vec3 const& wo, ReflectionMoments const& m) const {
+        // Dielectrics have tables of their own.
+        if (auto const* d = std::get_if<DielectricFresnel>(&fresnel))
+            return Color(dielectric_albedo(distribution, wo, d->eta).reflected);
+        return rough_reflectance(fresnel, m);
+    }
+    Color compensation(float white) const {
+        Color const lost = mean_reflectance(fresnel) * (1 - white);
+        return {1 / (1 - lost.r), 1 / (1 - lost.g), 1 / (1 - lost.b)};
     }
 };
 
 using GgxReflection = MicrofacetReflection<Ggx>;
 using BeckmannReflection = MicrofacetReflection<Beckmann>;
+using AshikhminShirleyReflection = MicrofacetReflection<AshikhminShirley>;
 
-static_assert(SmoothLobe<GgxReflection> && SmoothLobe<BeckmannReflection>);
+static_assert(SmoothLobe<GgxReflection> && SmoothLobe<BeckmannReflection> &&
+              SmoothLobe<AshikhminShirleyReflection>);
 
 } // namespace weft::lobes

@@ -41,12 +41,12 @@ void enclose_sphere(Affined const& m, Enclosed& e) {
 void enclose_mesh(TriangleData const& data, Affined const& m, Enclosed& e) {
     Vec3d areas(0);
     double total = 0;
-    if (data.positions.size() < 2) return;
-    Vec3d const reference = m.point(Vec3d(data.positions[0]));
+    if (data.vertices.empty()) return;
+    Vec3d const reference = m.point(Vec3d(data.vertices[0].p));
     for (auto const& t : data.source->triangles) {
         Vec3d corner[3];
         for (int i = 0; i < 3; ++i) {
-            Vec3d const p = m.point(Vec3d(data.positions[t.v[i]]));
+            Vec3d const p = m.point(Vec3d(data.vertices[t.v[i]].p));
             e.grow(p);
             corner[i] = p - reference;
         }

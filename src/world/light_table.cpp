@@ -53,7 +53,7 @@ LightSample LightTable::sample_light(AreaLight const& l, Vec3 const& ref, Vec2 u
         sample.radiance = textures_->at(l.emission, point) * textures_->at(l.alpha, point);
     }
     sample.pdf = s.pdf;
-    sample.object = l.object;
+    sample.object = int32_t(l.object);
     // As far off the light as a ray that leaves it would start.
     Vec3 const extent = abs(s.p) + Vec3(l.extent);
     // Along a flat ray that is further.

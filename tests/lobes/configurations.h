@@ -7,6 +7,7 @@
 
 #include "base/hash.h"
 #include "lobes/bsdf.h"
+#include "lobes/conductor_presets.h"
 
 namespace weft::lobes::testing {
 
@@ -17,10 +18,16 @@ struct Configuration {
     bool isotropic = true;
     /// Relative error that rounding of directions (some 1e-6 in all) makes in the value.
     float resolution = 1e-4f;
+    bool weighs_below_one = true; ///< every sample: f / pdf is at most 1
     bool reciprocal = true;
-    /// Where the albedo is 1, the density follows the value and no sample weighs more than 1.
-    bool density_is_value = true;
+    /// By which the albedo may pass 1: rounding of a mean of ones, or for compensated lobes the
+    /// error of the tables (see energy.cpp).
+    double gain = 1e-4;
 };
+
+/// Whether the distribution draws visible normals, which G2 / G1 <= 1 weighs.
+template <class Distribution>
+constexpr bool draws_visible = !std::is_same_v<Distribution, AshikhminShirley>;
 
 template <class L>
 std::vector<Configuration<L>> test_configurations() = delete;
@@ -30,9 +37,24 @@ inline std::vector<Configuration<Lambert>> test_configurations<Lambert>() {
     return {{"Lambert", {}}};
 }
 
+/// One of each kind, and a film over a dielectric.
+inline std::vector<std::pair<std::string, Fresnel>> test_fresnels() {
+    Conductor const gold = conductor_presets[0].conductor, iron = conductor_presets[4].conductor;
+    return {{"white", WhiteFresnel{}},
+            {"Schlick", SchlickFresnel{Color(0.04f, 0.5f, 0.9f), Color(1, 0.8f, 0.9f)}},
+            {"F82", schlick_f82(Color(0.3f, 0.6f, 0.95f), Color(0.2f, 0.8f, 0.5f))},
+            {"dielectric", DielectricFresnel{1.5f}},
+            {"conductor", ConductorFresnel{gold.eta, gold.k}},
+            {"film on a metal", ThinFilmFresnel{{300, 1.4f}, iron.eta, iron.k}},
+            {"film on glass", ThinFilmFresnel{{450, 1.33f}, Color(1.5f), Color(0)}}};
+}
+
 template <>
 inline std::vector<Configuration<SpecularReflection>> test_configurations<SpecularReflection>() {
-    return {{"SpecularReflection", {}}};
+    std::vector<Configuration<SpecularReflection>> all;
+    for (auto const& [name, fresnel] : test_fresnels())
+        all.push_back({"SpecularReflection " + name, {fresnel}});
+    return all;
 }
 
 template <>
@@ -43,7 +65,12 @@ inline std::vector<Configuration<SpecularDielectric>> test_configurations<Specul
         {"SpecularDielectric matched", {1.f}},
         {"SpecularDielectric tinted", {1.33f, Color(0.9f, 0.5f, 0.1f), Color(0.2f, 0.3f, 0.7f)}},
         {"SpecularDielectric mirror only", {1.5f, Color(1), Color(0)}},
-        {"SpecularDielectric black", {1.5f, Color(0), Color(0)}}};
+        {"SpecularDielectric black", {1.5f, Color(0), Color(0)}},
+        {"SpecularDielectric stronger reflection", {1.3f, Color(1), Color(1), {2.4f}}},
+        {"SpecularDielectric weaker reflection", {1 / 1.8f, Color(1), Color(1), {1 / 1.3f}}},
+        {"SpecularDielectric film", {1.5f, Color(1), Color(1), {0, {500, 1.8f}}}},
+        {"SpecularDielectric film inside",
+         {1 / 1.5f, Color(1), Color(1), {0, {300, 1.33f, 1.5f}}}}};
 }
 
 template <class Distribution>
@@ -55,7 +82,24 @@ reflections(std::string const& name) {
         all.push_back({name + " alpha " + std::to_string(a.x) + " " + std::to_string(a.y),
                        {{a.x, a.y}},
                        a.x == a.y,
-                       std::max(1e-4f, 1e-6f / std::min(a.x, a.y))});
+                       std::max(1e-4f, 1e-6f / std::min(a.x, a.y)),
+                       draws_visible<Distribution>});
+    }
+    int i = 0;
+    for (auto const& [fresnel_name, fresnel] : test_fresnels()) {
+        for (bool const compensated : {false, true}) {
+            // All of them with GGX: samples and densities do not depend on them.
+            if (!std::is_same_v<Distribution, Ggx> && i % 4 != 3) continue;
+            Vec2 const a = i % 3 == 0 ? Vec2(0.5f, 0.1f) : Vec2(0.1f * float(i + 1));
+            all.push_back({name + " " + fresnel_name + (compensated ? " compensated" : ""),
+                           {{a.x, a.y}, fresnel, compensated},
+                           a.x == a.y,
+                           1e-4f,
+                           draws_visible<Distribution> && !compensated,
+                           !compensated,
+                           compensated ? (a.x == a.y ? 0.01 : 0.02) : 1e-4});
+        }
+        ++i;
     }
     return all;
 }
@@ -66,6 +110,8 @@ dielectrics(std::string const& name) {
     struct Parameters {
         float alpha_x, alpha_y, eta;
         Color reflectance{1.f}, transmittance{1.f};
+        BoundaryOptions options{};
+        bool compensated = false;
     };
     std::vector<Configuration<MicrofacetDielectric<Distribution>>> all;
     for (Parameters const& p : std::vector<Parameters>{
@@ -83,16 +129,30 @@ dielectrics(std::string const& name) {
              {0.4f, 0.05f, 1 / 1.5f},
              {0.2f, 0.2f, 1.5f, Color(0.9f, 0.5f, 0.1f), Color(0.2f, 0.3f, 0.7f)},
              {0.2f, 0.2f, 1 / 1.5f, Color(0), Color(1)},
-             {0.2f, 0.2f, 1.5f, Color(0), Color(0)}}) {
+             {0.2f, 0.2f, 1.5f, Color(0), Color(0)},
+             {0.6f, 0.6f, 1.5f, Color(1), Color(1), {}, true},
+             {0.3f, 0.6f, 1 / 1.5f, Color(1), Color(1), {}, true},
+             {0.2f, 0.2f, 1.3f, Color(1), Color(1), {2}},
+             {0.5f, 0.5f, 1 / 1.3f, Color(1), Color(1), {1 / 2.f}, true},
+             {0.2f, 0.2f, 1.8f, Color(1), Color(1), {1.3f}},
+             {0.2f, 0.2f, 1.5f, Color(1), Color(1), {0, {500, 1.8f}}},
+             {0.4f, 0.4f, 1 / 1.5f, Color(1), Color(1), {0, {300, 1.33f, 1.5f}}, true}}) {
         MicrofacetDielectric<Distribution> const lobe({p.alpha_x, p.alpha_y}, p.eta, p.reflectance,
-                                                      p.transmittance);
+                                                      p.transmittance, p.options, p.compensated);
         float const width =
             std::min(p.alpha_x, p.alpha_y) * std::min(1.f, std::abs(lobe.eta() - 1));
-        all.push_back({name + " alpha " + std::to_string(p.alpha_x) + " " +
-                           std::to_string(p.alpha_y) + " eta " + std::to_string(p.eta) + " tints " +
-                           std::to_string(p.reflectance.r) + " " +
-                           std::to_string(p.transmittance.r),
-                       lobe, p.alpha_x == p.alpha_y, std::max(1e-4f, 1e-6f / width)});
+        // The onset of total reflection by the other index and the fringes of films magnify
+        // rounding, and the density follows the channels' average.
+        bool const options = p.options.film || p.options.reflection_eta > 0;
+        all.push_back(
+            {name + " alpha " + std::to_string(p.alpha_x) + " " + std::to_string(p.alpha_y) +
+                 " eta " + std::to_string(p.eta) + " tints " + std::to_string(p.reflectance.r) +
+                 " " + std::to_string(p.transmittance.r) + " reflection " +
+                 std::to_string(p.options.reflection_eta) + " film " +
+                 std::to_string(p.options.film.thickness) + (p.compensated ? " compensated" : ""),
+             lobe, p.alpha_x == p.alpha_y, options ? 5e-3f : std::max(1e-4f, 1e-6f / width),
+             draws_visible<Distribution> && !p.compensated && !options,
+             !p.compensated && p.options.reflection_eta <= p.eta, p.compensated ? 0.01 : 1e-4});
     }
     return all;
 }
@@ -104,6 +164,16 @@ inline std::vector<Configuration<GgxReflection>> test_configurations<GgxReflecti
 template <>
 inline std::vector<Configuration<BeckmannReflection>> test_configurations<BeckmannReflection>() {
     return reflections<Beckmann>("BeckmannReflection");
+}
+template <>
+inline std::vector<Configuration<AshikhminShirleyReflection>>
+test_configurations<AshikhminShirleyReflection>() {
+    return reflections<AshikhminShirley>("AshikhminShirleyReflection");
+}
+template <>
+inline std::vector<Configuration<AshikhminShirleyDielectric>>
+test_configurations<AshikhminShirleyDielectric>() {
+    return dielectrics<AshikhminShirley>("AshikhminShirleyDielectric");
 }
 template <>
 inline std::vector<Configuration<GgxDielectric>> test_configurations<GgxDielectric>() {
@@ -122,7 +192,7 @@ inline std::vector<Configuration<OrenNayar>> test_configurations<OrenNayar>() {
             all.push_back({.name = "OrenNayar roughness " + std::to_string(roughness) + " rho " +
                                    std::to_string(rho.g),
                            .lobe = {rho, roughness},
-                           .density_is_value = false});
+                           .weighs_below_one = false});
     return all;
 }
 
@@ -132,7 +202,7 @@ inline std::vector<Configuration<BurleyDiffuse>> test_configurations<BurleyDiffu
     for (float const roughness : {0.f, 0.3f, 0.5f, 0.77f, 1.f})
         all.push_back({.name = "BurleyDiffuse roughness " + std::to_string(roughness),
                        .lobe = {roughness},
-                       .density_is_value = false});
+                       .weighs_below_one = false});
     return all;
 }
 
@@ -206,7 +276,10 @@ L seen_from_behind(L const& lobe) {
 }
 template <class D>
 MicrofacetDielectric<D> seen_from_behind(MicrofacetDielectric<D> const& lobe) {
-    return {lobe.distribution(), 1 / lobe.eta(), lobe.reflectance(), lobe.transmittance()};
+    BoundaryOptions options = lobe.options();
+    if (options.reflection_eta > 0) options.reflection_eta = 1 / options.reflection_eta;
+    options.film.outer_ior *= lobe.eta();
+    return {lobe.distribution(), 1 / lobe.eta(), lobe.reflectance(), lobe.transmittance(), options};
 }
 
 /// Calls f(configuration) for every configuration of every alternative that satisfies `Smooth`.

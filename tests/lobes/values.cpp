@@ -74,7 +74,7 @@ std::string fault(Configuration<L> const& c, Vec3 const& wo, Vec3 const& wi, Vec
         u.x == 0 || u.y == 0 || u.x == kOneMinusEpsilon || u.y == kOneMinusEpsilon;
     if (!(v.pdf > 0) && !at_an_end) ++lost;
     float const scale = transmission_eta_scale(lobe, sampled);
-    if (c.density_is_value && max_component(v.f) * scale > v.pdf * 1.01f &&
+    if (c.weighs_below_one && max_component(v.f) * scale > v.pdf * 1.01f &&
         max_component(lobe.albedo(wo)) == 1)
         return "a weight above 1 at " + text(sampled);
     return "";
