@@ -131,7 +131,7 @@ void trace_path(world::World const& world, PathSettings const& settings, world::
             add_emission(world, settings, path, point, shading.emission, sink);
             if (vertex == settings.depth) return;
 
-            ScatterPoint const here{point.p, shading.bsdf.frame.n, wo, &shading.bsdf, &point};
+            ScatterPoint const here{point.p, shading.bsdf.frame().n, wo, &shading.bsdf, &point};
             if (shading.bsdf.has_smooth() && !world.lights().empty())
                 direct(world, settings.strategy, path, here, u, vertex, sink);
 

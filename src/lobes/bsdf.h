@@ -1,4 +1,7 @@
-// A BSDF as a flat list of weighted lobes around one shading frame.
+// A BSDF as a flat list of weighted lobes, each around one of a few shading frames.
+//
+// Most surfaces have one frame. Layers with normal maps of their own, and stretched highlights that
+// are turned, each bring another: `use_frame` says around which one the lobes that follow lie.
 //
 // Materials add lobes, `prepare` decides how often each is picked, and `sample` picks one, samples
 // it, then evaluates the *whole* list, so that value and density cannot disagree (single-sample
@@ -44,8 +47,9 @@ using LobeVariant =
                  Transparent, Sheen, DisneySheen, Clearcoat, Hair>;
 
 struct Lobe {
-    Color weight;   ///< multiplies the kind's value
-    float pick = 1; ///< probability that `Bsdf::sample` picks it
+    Color weight;      ///< multiplies the kind's value
+    float pick = 1;    ///< probability that `Bsdf::sample` picks it
+    uint8_t frame = 0; ///< index of the frame it lies around
     LobeVariant kind;
 };
 
@@ -59,20 +63,27 @@ struct BsdfSample {
 
 class Bsdf {
   public:
-    static constexpr int capacity = 16;
+    static constexpr int capacity = 32;
+    static constexpr int frame_capacity = 8;
 
-    Frame frame;           ///< n is on wo's side
-    Vec3 geometric_normal; ///< on wo's side
-
-    /// An empty list. The room for lobes stays uninitialised.
-    Bsdf(Frame const& shading_frame, Vec3 const& ng_facing_wo)
-        : frame(shading_frame), geometric_normal(ng_facing_wo) {}
-    Bsdf(Bsdf const& o) : Bsdf(o.frame, o.geometric_normal) { copy_lobes(o); }
+    /// An empty list around one frame, n of which is on wo's side. The room for lobes stays
+    /// uninitialised.
+    Bsdf(Frame const& shading_frame, Vec3 const& ng_facing_wo) : geometric_normal_(ng_facing_wo) {
+        frames_[0] = shading_frame;
+    }
+    Bsdf(Bsdf const& o) { copy(o); }
     Bsdf& operator=(Bsdf const& o) {
-        frame = o.frame;
-        geometric_normal = o.geometric_normal;
-        if (this != &o) copy_lobes(o);
+        if (this != &o) copy(o);
         return *this;
+    }
+
+    /// The first frame, that of the surface itself.
+    Frame const& frame() const { return frames_[0]; }
+
+    /// Lobes added from here on lie around `frame`, whose n is on wo's side. Beyond
+    /// `frame_capacity` frames it is the last one that does.
+    void use_frame(Frame const& frame) {
+        if (frame_count_ < frame_capacity) frames_[frame_count_++] = frame;
     }
 
     /// Appends an alternative of LobeVariant, or a LobeVariant; weights are >= 0. A black weight
@@ -81,8 +92,8 @@ class Bsdf {
     bool add(Color const& weight, L const& kind) {
         if (is_black(weight)) return true;
         if (count_ == capacity) return false;
-        Lobe const& lobe =
-            *std::construct_at(&lobes_[count_++], Lobe{weight, 1, LobeVariant(kind)});
+        Lobe const& lobe = *std::construct_at(
+            &lobes_[count_++], Lobe{weight, 1, uint8_t(frame_count_ - 1), LobeVariant(kind)});
         LobeFlags const flags = match(lobe.kind, [](auto const& l) { return l.flags(); });
         flags_ |= flags;
         if (!any(flags, LobeFlags::Delta)) smooth_flags_ |= flags;
@@ -96,7 +107,15 @@ class Bsdf {
     /// The sum over the smooth lobes; the density is that of `sample` choosing wi by any of them.
     /// World space, unit directions.
     LobeValue eval(Vec3 const& wo, Vec3 const& wi) const {
-        return eval_folded(frame.to_local(wo), wi, frame.to_local(wi));
+        LobeValue sum;
+        for (int first = 0; first < count_;) {
+            Span const span = lobes_from(first);
+            LobeValue const v = eval_folded(span, wo, wi);
+            sum.f += v.f;
+            sum.pdf += v.pdf;
+            first = span.end;
+        }
+        return sum;
     }
 
     /// Picks a lobe by u.z, samples it by what is left of u; u in [0, 1)^3.
@@ -105,12 +124,8 @@ class Bsdf {
     /// The power scattered towards anywhere, per channel; see lobe.h. Microfacet lobes answer
     /// from tables.
     Color albedo(Vec3 const& wo) const {
-        Vec3 const local = frame.to_local(wo);
         Color sum;
-        for (int i = 0; i < count_; ++i) {
-            sum += lobes_[i].weight *
-                   match(lobes_[i].kind, [&](auto const& l) { return l.albedo(local); });
-        }
+        for (int i = 0; i < count_; ++i) sum += lobes_[i].weight * lobe_albedo(lobes_[i], wo);
         return sum;
     }
 
@@ -121,6 +136,22 @@ class Bsdf {
     bool has_smooth() const { return smooth_flags_ != LobeFlags::None; }
 
   private:
+    /// Neighbours in the list that lie around one frame.
+    struct Span {
+        int begin, end;
+        Frame const& frame;
+    };
+    Span lobes_from(int first) const {
+        int end = first + 1;
+        while (end < count_ && lobes_[end].frame == lobes_[first].frame) ++end;
+        return {first, end, frames_[lobes_[first].frame]};
+    }
+
+    Color lobe_albedo(Lobe const& lobe, Vec3 const& wo) const {
+        Vec3 const local = frames_[lobe.frame].to_local(wo);
+        return match(lobe.kind, [&](auto const& l) { return l.albedo(local); });
+    }
+
     /// What one lobe said to `sample`, in local space.
     struct Picked {
         Vec3 wi;
@@ -142,34 +173,35 @@ class Bsdf {
     }
 
     bool same_sides(Vec3 const& wi, Vec3 const& local) const {
-        return dot(wi, geometric_normal) * local.z > 0;
+        return dot(wi, geometric_normal_) * local.z > 0;
     }
 
     /// `wi` mirrored at the geometric tangent plane.
     Vec3 fold(Vec3 const& wi) const {
-        return wi - geometric_normal * (2 * dot(wi, geometric_normal));
+        return wi - geometric_normal_ * (2 * dot(wi, geometric_normal_));
     }
 
-    /// Towards `wi` (world), which is `wi_local`: what is sent there, and what is folded there.
-    LobeValue eval_folded(Vec3 const& wo, Vec3 const& wi, Vec3 const& wi_local) const {
-        float const height = dot(wi, geometric_normal);
+    /// What the lobes of one frame send towards `wi`, and what they send to its fold.
+    LobeValue eval_folded(Span const& span, Vec3 const& wo, Vec3 const& wi) const {
+        Vec3 const wo_local = span.frame.to_local(wo), wi_local = span.frame.to_local(wi);
+        float const height = dot(wi, geometric_normal_);
         LobeValue value;
-        if (height * wi_local.z > 0) value = eval_local(wo, wi_local);
+        if (height * wi_local.z > 0) value = eval_local(span, wo_local, wi_local);
         // Where the normals are one this is -wi_local.z, and nothing is folded.
-        float const folded_z = wi_local.z - 2 * height * dot(frame.n, geometric_normal);
+        float const folded_z = wi_local.z - 2 * height * dot(span.frame.n, geometric_normal_);
         if (folded_z * height > 0) [[unlikely]] {
-            LobeValue const v = eval_local(wo, frame.to_local(fold(wi)));
+            LobeValue const v = eval_local(span, wo_local, span.frame.to_local(fold(wi)));
             value.f += v.f;
             value.pdf += v.pdf;
         }
         return value;
     }
 
-    LobeValue eval_local(Vec3 const& wo, Vec3 const& wi) const {
+    LobeValue eval_local(Span const& span, Vec3 const& wo, Vec3 const& wi) const {
         LobeFlags const side = wi.z > 0 ? LobeFlags::Reflection : LobeFlags::Transmission;
         if (!any(smooth_flags_, side)) return {};
         LobeValue sum;
-        for (int i = 0; i < count_; ++i) {
+        for (int i = span.begin; i < span.end; ++i) {
             Lobe const& lobe = lobes_[i];
             LobeValue const v = match(lobe.kind, [&](auto const& l) {
                 if constexpr (SmoothLobe<std::remove_cvref_t<decltype(l)>>) return l.eval(wo, wi);
@@ -181,15 +213,22 @@ class Bsdf {
         return sum;
     }
 
-    void copy_lobes(Bsdf const& o) {
+    void copy(Bsdf const& o) {
+        geometric_normal_ = o.geometric_normal_;
+        std::copy_n(o.frames_, o.frame_count_, frames_);
+        frame_count_ = o.frame_count_;
         std::uninitialized_copy_n(o.lobes_, o.count_, lobes_);
         count_ = o.count_;
         flags_ = o.flags_;
         smooth_flags_ = o.smooth_flags_;
     }
 
-    int count_ = 0;
+    int count_ = 0, frame_count_ = 1;
     LobeFlags flags_{}, smooth_flags_{};
+    Vec3 geometric_normal_; ///< on wo's side
+    union {
+        Frame frames_[frame_capacity]; ///< the first frame_count_ are alive
+    };
     union {
         Lobe lobes_[capacity]; ///< the first count_ are alive
     };
@@ -199,10 +238,9 @@ inline void Bsdf::prepare(Vec3 const& wo) {
     if (count_ <= 1) return;
     // The floor keeps a lobe alive whose tabulated albedo rounds to 0.
     constexpr float least_albedo = 1e-2f;
-    Vec3 const local = frame.to_local(wo);
     float total = 0;
     for (int i = 0; i < count_; ++i) {
-        Color const albedo = match(lobes_[i].kind, [&](auto const& l) { return l.albedo(local); });
+        Color const albedo = lobe_albedo(lobes_[i], wo);
         lobes_[i].pick = average(lobes_[i].weight * (albedo + Color(least_albedo)));
         total += lobes_[i].pick;
     }
@@ -217,13 +255,13 @@ inline BsdfSample Bsdf::sample(Vec3 const& wo, Vec3 const& u) const {
     Lobe const& lobe = lobes_[picked];
     Vec3 const u_lobe{u.x, u.y, std::min(rest / lobe.pick, kOneMinusEpsilon)};
 
+    Frame const& frame = frames_[lobe.frame];
     Vec3 const wo_local = frame.to_local(wo);
     Picked const p =
         match(lobe.kind, [&](auto const& l) { return sample_lobe(l, wo_local, u_lobe); });
-    Vec3 wi = frame.to_world(p.wi), wi_local = p.wi;
+    Vec3 wi = frame.to_world(p.wi);
     if (!same_sides(wi, p.wi)) {
         wi = fold(wi);
-        wi_local = frame.to_local(wi);
         if (!same_sides(wi, p.wi)) return {}; // a failure: the zero vector is on no side
     }
 
@@ -234,7 +272,7 @@ inline BsdfSample Bsdf::sample(Vec3 const& wo, Vec3 const& u) const {
         result.pdf = lobe.pick * p.delta_probability;
         return result;
     }
-    LobeValue const v = eval_folded(wo_local, wi, wi_local);
+    LobeValue const v = eval(wo, wi);
     if (!(v.pdf > 0)) return {};
     result.weight = v.f / v.pdf;
     result.pdf = v.pdf;

@@ -67,7 +67,7 @@ struct LobeBuilder {
     float operator()(scene::Principled const& m) const {
         Color const base = unit(at(m.base_color));
         float const metallic = std::clamp(at(m.metallic), 0.f, 1.f);
-        float const f0 = 0.08f * (1 - metallic), cos_o = std::abs(dot(bsdf.frame.n, wo));
+        float const f0 = 0.08f * (1 - metallic), cos_o = std::abs(dot(bsdf.frame().n, wo));
         float const c = std::clamp(1 - cos_o, 0.f, 1.f);
         float const fresnel = at(m.specular) * (f0 + (1 - f0) * c * c * c * c * c);
         bsdf.add((1 - fresnel) * (1 - metallic) * base, lobes::Lambert{});
