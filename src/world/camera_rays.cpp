@@ -10,14 +10,13 @@ namespace weft::world {
 namespace {
 
 /// The brightness of an aperture image as a density over the square around the lens.
-std::shared_ptr<Distribution2D const> aperture_density(image::Image const& image) {
+std::shared_ptr<Distribution2D const> aperture_density(image::Texture const& image) {
     std::vector<float> weights;
     weights.reserve(size_t(image.width) * size_t(image.height));
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
-            bool const grey = image.channels < 3;
-            float const v = luminance(
-                {image.at(x, y, 0), image.at(x, y, grey ? 0 : 1), image.at(x, y, grey ? 0 : 2)});
+            image::Texel const texel = image.texel(0, x, y);
+            float const v = luminance({texel[0], texel[1], texel[2]});
             weights.push_back(std::isfinite(v) && v > 0 ? v : 0);
         }
     return std::make_shared<Distribution2D const>(weights, uint32_t(image.width),
@@ -27,7 +26,7 @@ std::shared_ptr<Distribution2D const> aperture_density(image::Image const& image
 } // namespace
 
 CameraRays::CameraRays(scene::Camera const& camera,
-                       std::vector<std::shared_ptr<image::Image const>> const& images) {
+                       std::vector<std::shared_ptr<image::Texture const>> const& images) {
     auto set_view = [&](scene::Viewpoint const& view, scene::FovAxis axis) {
         to_world_ = Affine(view.transform);
         size_ = {view.width, view.height};

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/distribution.h"
-#include "image/image.h"
+#include "image/texture.h"
 #include "scene/camera.h"
 #include "world/ray.h"
 
@@ -15,7 +15,7 @@ class CameraRays {
   public:
     CameraRays() = default;
     CameraRays(scene::Camera const& camera,
-               std::vector<std::shared_ptr<image::Image const>> const& images);
+               std::vector<std::shared_ptr<image::Texture const>> const& images);
 
     /// Replaces the size of the picture; the field of view stays what the scene says.
     void resize(Vec2i size) { size_ = size; }

@@ -230,9 +230,9 @@ void WorldBuilder::count() {
     WorldStatistics& s = world_.statistics_;
     s.objects = world_.objects_.size();
     s.lights = world_.lights_.size();
-    std::set<image::Image const*> images;
+    std::set<image::Texture const*> images;
     for (auto const& image : scene_.images) images.insert(image.get());
-    for (auto const* image : images) s.memory_bytes += image->pixels.size() * sizeof(float);
+    for (auto const* image : images) s.memory_bytes += image->memory_bytes();
     for (TriangleData const& t : world_.triangles_) {
         s.unique_triangles += t.source->triangles.size();
         s.memory_bytes += t.vertices.size() * sizeof(Vertex) + t.source->triangles.size() * 12;
