@@ -116,8 +116,11 @@ bool write_first(RowSource& source, OIIO::ImageOutput& output, Level& smaller,
 
 bool write_level(OIIO::ImageOutput& output, std::string const& name, TexelFormat format,
                  Level const& level) {
-    return output.open(name, tile_spec(format, level.width, level.height),
-                       OIIO::ImageOutput::AppendMIPLevel) &&
+    return output.open(
+               name, tile_spec(format, level.width, level.height),
+               // OpenImageIO takes the parts of a TIFF that says it is a texture for levels.
+               output.supports("mipmap") ? OIIO::ImageOutput::AppendMIPLevel
+                                         : OIIO::ImageOutput::AppendSubimage) &&
            output.write_tiles(0, level.width, 0, level.height, 0, 1, oiio_type(format.type),
                               level.texels.data());
 }

@@ -108,8 +108,7 @@ Operand GraphCompiler::translate(scene::ImageTexture const& node, scene::ValueTy
     op.texcoord = node.texcoord;
     connect(op.texcoord);
     op.lookup = {scene_.images[size_t(node.filename.resource)], node.exposure,
-                 node.border == scene::TextureBorder::clamp,
-                 image_filter(node.filter)};
+                 node.border == scene::TextureBorder::clamp, image_filter(node.filter)};
     bool const connected = bool(op.texcoord.texture);
     return finish(op, connected ? Needs::nothing : Needs::uv, connected, type);
 }

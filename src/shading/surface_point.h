@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/vec.h"
+#include "shading/footprint.h"
 
 namespace weft::shading {
 
@@ -14,6 +15,7 @@ struct SurfacePoint {
     Vec3 dpdu{0, 0, 0};    ///< along growing u, any length; 0 where there are no uvs
                            ///< or nothing looks at it
     Vec2 uv{0, 0};
+    UvFootprint footprint;  ///< of the ray that met it; 0 where no texture asks for it
     float t = 0;            ///< distance from the ray's origin in units of its direction
     uint32_t object = 0;    ///< which object of the world
     uint32_t primitive = 0; ///< which triangle of it

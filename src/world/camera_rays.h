@@ -23,12 +23,14 @@ class CameraRays {
     Vec3 position() const { return to_world_.origin; }
     bool has_lens() const { return lens_radius_ > 0; } ///< whether `lens` matters to `ray`
 
-    /// `raster`: pixels from the upper left corner; `lens` in [0, 1)^2.
-    Ray ray(Vec2 raster, Vec2 lens, float time) const;
+    /// `raster`: pixels from the upper left corner; `lens` in [0, 1)^2. The ray's cone is
+    /// `footprint_scale` times as wide as a pixel.
+    Ray ray(Vec2 raster, Vec2 lens, float time, float footprint_scale = 1) const;
 
   private:
     enum class Projection { Perspective, Orthographic, Environment };
 
+    float half_pixel() const;
     Vec2 on_screen(Vec2 raster) const;
     Vec2 on_lens(Vec2 u) const;
 

@@ -38,6 +38,9 @@ void WorldBuilder::build(CommitOptions const& options) {
     auto const& camera = scene_.cameras[size_t(scene_.contents.camera.index)];
     world_.camera_ = CameraRays(camera, scene_.images);
     if (options.size.x > 0) world_.camera_.resize(options.size);
+    for (scene::Texture const& node : scene_.textures)
+        if (auto const* image = std::get_if<scene::ImageTexture>(&node))
+            world_.use_footprints_ |= image->filter == scene::TextureFilter::mipmap;
     rectangle_ = make_rectangle();
     collect_instances();
     compile_networks();
