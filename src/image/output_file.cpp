@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <string_view>
 
 #include <unistd.h>
 
@@ -62,12 +63,14 @@ class PatientFile : public OIIO::Filesystem::IOProxy {
 
 } // namespace
 
-void write_file(std::string const& path, std::string const& format, FillOutput const& fill) {
+void write_file(std::string const& path, std::string const& format, FillOutput const& fill,
+                bool in_parts) {
     replace_file(path, [&](int descriptor, std::string const& temporary) {
         PatientFile file(descriptor, temporary);
         auto const output = OIIO::ImageOutput::create(format.empty() ? temporary : format);
         if (!output) throw IoError(path + ": cannot write the image: " + OIIO::geterror());
-        bool const filled = output->set_ioproxy(&file) && fill(*output, temporary);
+        bool const by_name = in_parts && std::string_view(output->format_name()) == "tiff";
+        bool const filled = (by_name || output->set_ioproxy(&file)) && fill(*output, temporary);
         bool const closed = output->close();
         if (file.reason() != 0)
             throw IoError(path + ": cannot write the image: " + std::strerror(file.reason()));

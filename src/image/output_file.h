@@ -13,7 +13,9 @@ namespace weft::image {
 using FillOutput = std::function<bool(OIIO::ImageOutput& output, std::string const& name)>;
 
 /// Replaces `path`. `format` is OpenImageIO's name of a file format; "" takes that of the
-/// extension. Throws IoError; what `fill` throws passes through.
-void write_file(std::string const& path, std::string const& format, FillOutput const& fill);
+/// extension. `in_parts`: the file may have several, which OpenImageIO's TIFF writer appends only
+/// to a file that it opened by name. Throws IoError; what `fill` throws passes through.
+void write_file(std::string const& path, std::string const& format, FillOutput const& fill,
+                bool in_parts = false);
 
 } // namespace weft::image

@@ -133,26 +133,28 @@ void make_texture_file(std::string const& from, std::string const& to, Transfer 
     TexelFormat const format = source.format();
     bool const integers = format.type == TexelType::u8 || format.type == TexelType::u16;
     int const width = source.spec().width, height = source.spec().height;
-    write_file(to, integers ? "tiff" : "openexr",
-               [&](OIIO::ImageOutput& output, std::string const& name) {
-                   Level level;
-                   if (!output.open(name, tile_spec(format, width, height)) ||
-                       !write_first(source, output, level, progress))
-                       return false;
-                   for (int i = level_count(width, height) - 1; i > 0; --i) {
-                       if (!write_level(output, name, format, level)) return false;
-                       if (i == 1) break;
-                       LevelReducer const reducer(format, level.width, level.height);
-                       Level smaller = make_level(reducer, format);
-                       size_t const row = size_t(level.width) * format.bytes();
-                       reduce_rows(
-                           reducer, format, 0, smaller.height,
-                           [&](int y) { return &level.texels[size_t(y) * row]; }, smaller);
-                       level = std::move(smaller);
-                   }
-                   if (progress) progress(1);
-                   return true;
-               });
+    write_file(
+        to, integers ? "tiff" : "openexr",
+        [&](OIIO::ImageOutput& output, std::string const& name) {
+            Level level;
+            if (!output.open(name, tile_spec(format, width, height)) ||
+                !write_first(source, output, level, progress))
+                return false;
+            for (int i = level_count(width, height) - 1; i > 0; --i) {
+                if (!write_level(output, name, format, level)) return false;
+                if (i == 1) break;
+                LevelReducer const reducer(format, level.width, level.height);
+                Level smaller = make_level(reducer, format);
+                size_t const row = size_t(level.width) * format.bytes();
+                reduce_rows(
+                    reducer, format, 0, smaller.height,
+                    [&](int y) { return &level.texels[size_t(y) * row]; }, smaller);
+                level = std::move(smaller);
+            }
+            if (progress) progress(1);
+            return true;
+        },
+        true);
 }
 
 } // namespace weft::image
