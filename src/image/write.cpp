@@ -2,84 +2,25 @@
 
 #include "base/color.h"
 #include "image/atomic_file.h"
+#include "image/output_file.h"
 
-#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
 #include <cassert>
 #include <cctype>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <functional>
-#include <memory>
-
-#include <unistd.h>
 
 namespace weft::image {
 
 namespace {
 
-/// A file that the format libraries believe never fails. Told of an error, the JPEG library ends
-/// the process and the EXR library, which writes its tables while it closes, says nothing; so they
-/// are not told, and the first error is asked for at the end.
-class PatientFile : public OIIO::Filesystem::IOProxy {
-  public:
-    PatientFile(int descriptor, std::string const& path)
-        : IOProxy(path, Write), descriptor_(descriptor) {}
-    /// Not "file": that name has OpenImageIO cast to its own type.
-    char const* proxytype() const override { return "patient"; }
-    size_t write(void const* data, size_t size) override {
-        pwrite(data, size, m_pos);
-        m_pos += int64_t(size);
-        return size;
-    }
-    size_t pwrite(void const* data, size_t size, int64_t offset) override {
-        auto const* bytes = static_cast<char const*>(data);
-        size_ = std::max(size_, size_t(offset) + size);
-        for (size_t done = 0; done < size && reason_ == 0;) {
-            ssize_t const n =
-                ::pwrite(descriptor_, bytes + done, size - done, off_t(offset) + off_t(done));
-            if (n >= 0)
-                done += size_t(n);
-            else if (errno != EINTR)
-                reason_ = errno;
-        }
-        return size;
-    }
-    size_t read(void* data, size_t size) override {
-        size_t const n = pread(data, size, m_pos);
-        m_pos += int64_t(n);
-        return n;
-    }
-    size_t pread(void* data, size_t size, int64_t offset) override {
-        ssize_t const n = ::pread(descriptor_, data, size, off_t(offset));
-        return n < 0 ? 0 : size_t(n);
-    }
-    size_t size() const override { return size_; }
-    int reason() const { return reason_; } ///< errno of the first failure, or 0
-
-  private:
-    int descriptor_;
-    size_t size_ = 0;
-    int reason_ = 0;
-};
-
 using Fill = std::function<bool(OIIO::ImageOutput&)>;
 
-void write_file(std::string const& path, OIIO::ImageSpec const& spec, Fill const& fill) {
-    replace_file(path, [&](int descriptor, std::string const& temporary) {
-        PatientFile file(descriptor, temporary);
-        auto const output = OIIO::ImageOutput::create(temporary);
-        if (!output) throw IoError(path + ": cannot write the image: " + OIIO::geterror());
-        bool const filled =
-            output->set_ioproxy(&file) && output->open(temporary, spec) && fill(*output);
-        bool const closed = output->close();
-        if (file.reason() != 0)
-            throw IoError(path + ": cannot write the image: " + std::strerror(file.reason()));
-        if (!filled || !closed)
-            throw IoError(path + ": cannot write the image: " + output->geterror());
+void write_pixels(std::string const& path, OIIO::ImageSpec const& spec, Fill const& fill) {
+    write_file(path, "", [&](OIIO::ImageOutput& output, std::string const& name) {
+        return output.open(name, spec) && fill(output);
     });
 }
 
@@ -179,7 +120,7 @@ void write_display(std::string const& path, Image const& image, Metadata const& 
         // that it cannot read.
         spec.attribute("oiio:ColorSpace", "sRGB");
     add_metadata(spec, metadata);
-    write_file(path, spec, [&](OIIO::ImageOutput& output) {
+    write_pixels(path, spec, [&](OIIO::ImageOutput& output) {
         return output.write_image(OIIO::TypeDesc::UINT8, bytes.data());
     });
 }
@@ -197,7 +138,7 @@ void write_hdr(std::string const& path, Image const& image, Metadata const& meta
         }
     OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::FLOAT);
     add_metadata(spec, metadata);
-    write_file(path, spec, [&](OIIO::ImageOutput& output) {
+    write_pixels(path, spec, [&](OIIO::ImageOutput& output) {
         return output.write_image(OIIO::TypeDesc::FLOAT, rgb.data());
     });
 }
@@ -215,7 +156,7 @@ void write_exr(std::string const& path, int width, int height, std::span<Channel
     spec.attribute("compression", "zip");
     spec.attribute("DateTime", ""); // or else OpenImageIO writes the time of day
     add_metadata(spec, metadata);
-    write_file(path, spec, [&](OIIO::ImageOutput& output) {
+    write_pixels(path, spec, [&](OIIO::ImageOutput& output) {
         // In strips, so that an image with many layers is never held twice; 64 lines are whole
         // blocks of the compression.
         constexpr int kStrip = 64;

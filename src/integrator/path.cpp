@@ -54,6 +54,7 @@ bool fly(world::World const& world, PathState& path, float limit, sampling::Samp
     path.throughput *= s.weight;
     if (!s.scattered) return false;
     path.ray.origin += path.ray.direction * s.distance;
+    path.ray.cone.width = path.ray.cone.width_at(s.distance);
     path.ray.t_min = world::Ray().t_min;
     return true;
 }
@@ -72,6 +73,7 @@ void scatter_in_medium(world::World const& world, PathSettings const& settings, 
     path.ray.direction =
         media::sample_henyey_greenstein(point.wo, point.g, u.get2(Dimension::Phase, vertex));
     path.pdf = media::henyey_greenstein(dot(point.wo, path.ray.direction), point.g);
+    path.ray.cone = world::scattered(path.ray.cone, path.pdf, settings.footprint_scale);
 }
 
 /// The rest of the path starts at `point` towards `direction`.
@@ -81,6 +83,7 @@ void continue_from(world::World const& world, PathState& path, shading::SurfaceP
     path.ray.origin = shading::offset_origin(point, direction);
     path.ray.direction = direction;
     path.ray.t_min = world::Ray().t_min;
+    path.ray.cone.width = path.ray.cone.width_at(point.t);
 }
 
 /// Ends paths that carry little, and strengthens those that survive: the mean stays. The root
@@ -144,6 +147,7 @@ void trace_path(world::World const& world, PathSettings const& settings, world::
             path.n = here.n;
             path.signature.append(bounce_kind(s.flags));
             continue_from(world, path, point, s.wi, any(s.flags, lobes::LobeFlags::Transmission));
+            path.ray.cone = world::scattered(path.ray.cone, path.pdf, settings.footprint_scale);
         }
         if (is_black(path.throughput)) return;
         if (vertex >= settings.roulette_depth &&

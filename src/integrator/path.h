@@ -12,6 +12,7 @@ struct PathSettings {
     scene::Strategy strategy = scene::Strategy::mis;
     uint32_t depth = 16;         ///< vertices seen along a path; the first hit is 1
     uint32_t roulette_depth = 3; ///< vertices that Russian roulette leaves alone
+    float footprint_scale = 1;   ///< see world::footprint_scale
 };
 
 /// Follows one path from the camera and hands every contribution to `sink`. `media`: what the

@@ -64,11 +64,15 @@ Color direction_color(Vec3 const& v) { return as_color((v + Vec3(1)) * 0.5f); }
 } // namespace
 
 PixelRenderer::PixelRenderer(world::World const& world, scene::Integrator const& integrator,
-                             scene::Sampler const& sampler, uint32_t seed)
+                             scene::Sampler const& sampler, uint32_t seed, int samples_per_pixel)
     : world_(world), integrator_(integrator), path_(path_settings(integrator)),
       sampler_(sampler_kind(sampler)), seed_(seed),
       filter_(make_filter(match(integrator, [](auto const& i) { return i.target; }))),
-      media_(media_at(world, world.camera().position())) {}
+      media_(media_at(world, world.camera().position())) {
+    path_.footprint_scale = world::footprint_scale(
+        samples_per_pixel > 0 ? samples_per_pixel
+                              : match(sampler, [](auto const& s) { return s.count; }));
+}
 
 Color PixelRenderer::trace(scene::CameraIntegrator const& i, world::Ray const& ray) const {
     if (!i.grid) return as_color(ray.direction);
@@ -117,8 +121,9 @@ Color PixelRenderer::sample(Vec2i pixel, uint32_t sample) const {
     Vec2 const offset = film::sample_filter(filter_, u.get2(Dimension::Film));
     Vec2 const raster(float(pixel.x) + 0.5f + offset.x, float(pixel.y) + 0.5f + offset.y);
     world::CameraRays const& camera = world_.camera();
-    world::Ray const ray = camera.ray(
-        raster, camera.has_lens() ? u.get2(Dimension::Lens) : Vec2(0.5f), u.get1(Dimension::Time));
+    world::Ray const ray =
+        camera.ray(raster, camera.has_lens() ? u.get2(Dimension::Lens) : Vec2(0.5f),
+                   u.get1(Dimension::Time), path_.footprint_scale);
     return match(integrator_, [&](auto const& i) {
         if constexpr (requires { trace(i, ray); }) {
             return trace(i, ray);

@@ -9,11 +9,13 @@ namespace weft::integrator {
 
 class PixelRenderer {
   public:
+    /// `samples_per_pixel`: how many are to be taken, 0 for what the sampler says; footprints of
+    /// textures are the smaller the more there are.
     PixelRenderer(world::World const& world, scene::Integrator const& integrator,
-                  scene::Sampler const& sampler, uint32_t seed);
+                  scene::Sampler const& sampler, uint32_t seed, int samples_per_pixel = 0);
 
-    /// The radiance that sample number `sample` of `pixel` sees: a pure function of its arguments
-    /// and the seed.
+    /// The radiance that sample number `sample` of `pixel` sees: a pure function of its arguments,
+    /// the seed and, where textures are filtered by footprints, the samples per pixel.
     Color sample(Vec2i pixel, uint32_t sample) const;
 
   private:

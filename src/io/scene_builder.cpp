@@ -65,20 +65,16 @@ int32_t index_of(std::vector<T>& list, T const& shared) {
     return it != list.end() ? int32_t(it - list.begin()) : push(list, shared);
 }
 
-/// Screen colours to linear ones. They are integers over 255 or 65535, so a table has them all.
-void decode(image::Image& image, scene::ColorSpace from) {
-    std::vector<float> table(65536);
-    for (size_t i = 0; i < table.size(); ++i) {
-        float const v = float(i) / 65535;
-        table[i] = from == scene::ColorSpace::srgb_texture ? srgb_to_linear(v) : std::pow(v, 2.2f);
+image::Transfer transfer_of(scene::ColorSpace space) {
+    switch (space) {
+    case scene::ColorSpace::g22_rec709:
+        return image::Transfer::gamma22;
+    case scene::ColorSpace::srgb_texture:
+        return image::Transfer::srgb;
+    case scene::ColorSpace::lin_rec709:
+        break;
     }
-    int const colors = image.channels >= 3 ? 3 : 1;
-    for (size_t i = 0; i < image.pixels.size(); i += size_t(image.channels))
-        for (int c = 0; c < colors; ++c) {
-            float& v = image.pixels[i + size_t(c)];
-            v = table[size_t(std::clamp(v, 0.f, 1.f) * 65535 + 0.5f)];
-        }
-    image.is_srgb_encoded = false;
+    return image::Transfer::linear;
 }
 
 /// The one type that a category with a single type may name.
@@ -187,15 +183,10 @@ int32_t SceneBuilder::add(scene::IntegratorKind, XmlElement const& e) {
 }
 
 int32_t SceneBuilder::load_image(std::string const& path, scene::ColorSpace encoding,
-                                 SourceLocation const& where) {
-    auto& image = document_.images[{path, encoding}];
-    if (!image) {
-        image::Image loaded = read_at(where, [&] { return image::read_image(path); });
-        if (loaded.is_srgb_encoded && encoding != scene::ColorSpace::lin_rec709)
-            decode(loaded, encoding);
-        image = std::make_shared<image::Image const>(std::move(loaded));
-    }
-    return index_of(scene_.images, image);
+                                 bool mip_levels, SourceLocation const& where) {
+    return index_of(scene_.images, read_at(where, [&] {
+                        return document_.textures->load(path, transfer_of(encoding), mip_levels);
+                    }));
 }
 
 int32_t SceneBuilder::load_mesh(std::string const& path, SourceLocation const& where) {
@@ -213,8 +204,9 @@ void SceneBuilder::complete(scene::ImageTexture& texture, XmlElement const& elem
     SourceLocation const& where = location_of(element, "filename");
     std::string const path = existing_file(element.folder, texture.filename.path, where);
     if (files_ == Files::read)
-        texture.filename.resource = load_image(
-            path, texture.linear ? scene::ColorSpace::lin_rec709 : texture.color_space, where);
+        texture.filename.resource =
+            load_image(path, texture.linear ? scene::ColorSpace::lin_rec709 : texture.color_space,
+                       texture.filter == scene::TextureFilter::mipmap, where);
 }
 
 void SceneBuilder::complete(scene::Instance& instance, XmlElement const& element) {
@@ -231,7 +223,7 @@ void SceneBuilder::complete(scene::ThinLens& camera, XmlElement const& element) 
     SourceLocation const& where = location_of(element, "bokeh");
     std::string const path = existing_file(element.folder, camera.bokeh.path, where);
     if (files_ == Files::read)
-        camera.bokeh.resource = load_image(path, scene::ColorSpace::srgb_texture, where);
+        camera.bokeh.resource = load_image(path, scene::ColorSpace::srgb_texture, false, where);
 }
 
 void SceneBuilder::complete(scene::MeshShape& shape, XmlElement const& element) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "image/texture_cache.h"
 #include "io/object_reader.h"
 #include "scene/scene.h"
 
@@ -18,8 +19,7 @@ struct Document {
     std::unique_ptr<XmlElement> root;
     std::multimap<std::string, XmlElement const*, std::less<>> ids;
     std::map<std::string, std::shared_ptr<scene::Mesh const>> meshes; ///< by path
-    /// By path and encoding.
-    std::map<std::pair<std::string, scene::ColorSpace>, std::shared_ptr<image::Image const>> images;
+    std::shared_ptr<image::TextureCache> textures;                    ///< the images among them
     std::set<XmlElement const*> used; ///< the elements that became objects
 };
 
@@ -101,7 +101,7 @@ class SceneBuilder {
         bool emits;
     };
     Summary summary(scene::Instance const& instance) const;
-    int32_t load_image(std::string const& path, scene::ColorSpace encoding,
+    int32_t load_image(std::string const& path, scene::ColorSpace encoding, bool mip_levels,
                        SourceLocation const& where);
     int32_t load_mesh(std::string const& path, SourceLocation const& where);
 

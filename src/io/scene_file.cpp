@@ -171,10 +171,11 @@ void check_image_names(SceneFile& file) {
     }
 }
 
-SceneFile read_document(std::unique_ptr<XmlElement> root,
-                        std::vector<std::string> const& overrides) {
+SceneFile read_document(std::unique_ptr<XmlElement> root, std::vector<std::string> const& overrides,
+                        std::shared_ptr<image::TextureCache> textures) {
+    if (!textures) textures = std::make_shared<image::TextureCache>();
     for (std::string const& o : overrides) apply_override(*root, o);
-    Document document{std::move(root), {}, {}, {}, {}};
+    Document document{std::move(root), {}, {}, textures, {}};
     index_ids(document);
     JobReader reader(document);
     SceneFile file;
@@ -211,6 +212,9 @@ SceneFile read_document(std::unique_ptr<XmlElement> root,
     for (XmlElement const* scene : scenes) reader.check_scene(*scene);
     check_unused(document, *document.root);
     check_image_names(file);
+    for (std::string& warning : textures->take_warnings())
+        file.warnings.push_back(std::move(warning));
+    file.textures = std::move(textures);
     return file;
 }
 
@@ -221,13 +225,15 @@ void add_schemas(std::vector<schema::Schema>& to) {
 
 } // namespace
 
-SceneFile read_scene_file(std::string const& path, std::vector<std::string> const& overrides) {
-    return read_document(read_xml(path), overrides);
+SceneFile read_scene_file(std::string const& path, std::vector<std::string> const& overrides,
+                          std::shared_ptr<image::TextureCache> textures) {
+    return read_document(read_xml(path), overrides, std::move(textures));
 }
 
 SceneFile parse_scene(std::string_view text, std::string const& name, std::string const& folder,
-                      std::vector<std::string> const& overrides) {
-    return read_document(parse_xml(text, name, folder), overrides);
+                      std::vector<std::string> const& overrides,
+                      std::shared_ptr<image::TextureCache> textures) {
+    return read_document(parse_xml(text, name, folder), overrides, std::move(textures));
 }
 
 std::vector<schema::Schema> all_schemas() {

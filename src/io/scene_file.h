@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "image/texture_cache.h"
 #include "scene/scene.h"
 #include "schema/schema.h"
 
@@ -27,17 +28,21 @@ struct RenderJob {
 struct SceneFile {
     std::vector<RenderJob> jobs; ///< in file order
     std::vector<std::string> warnings;
+    std::shared_ptr<image::TextureCache> textures; ///< through which the scenes' images were read
 };
 
 /// Reads a scene file and everything that it names. Each override "PATH.PARAM=VALUE" sets a
 /// parameter of the objects that PATH (ids or tags, outermost first) leads to, as if the file
 /// said so. A file with a scene and no integrator gives one job: `path` with its defaults.
+/// Images are read through `textures`, or through a cache of the default size where it is null.
 /// Throws InputError.
-SceneFile read_scene_file(std::string const& path, std::vector<std::string> const& overrides = {});
+SceneFile read_scene_file(std::string const& path, std::vector<std::string> const& overrides = {},
+                          std::shared_ptr<image::TextureCache> textures = {});
 
 /// As read_scene_file, for text in memory.
 SceneFile parse_scene(std::string_view text, std::string const& name, std::string const& folder,
-                      std::vector<std::string> const& overrides = {});
+                      std::vector<std::string> const& overrides = {},
+                      std::shared_ptr<image::TextureCache> textures = {});
 
 /// The schemas of every type that a file may name, by category.
 std::vector<schema::Schema> all_schemas();

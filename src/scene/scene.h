@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "image/image.h"
+#include "image/texture.h"
 #include "scene/camera.h"
 #include "scene/light.h"
 #include "scene/material.h"
@@ -54,7 +54,7 @@ struct Scene {
 
     /// What files hold; shared, since several scenes of one document may use them.
     std::vector<std::shared_ptr<Mesh const>> meshes;
-    std::vector<std::shared_ptr<image::Image const>> images;
+    std::vector<std::shared_ptr<image::Texture const>> images;
 
     /// Where things were written, for messages.
     std::vector<SourceLocation> instance_locations;

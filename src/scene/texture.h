@@ -27,9 +27,10 @@ struct ConstantTexture {
 
 enum class TextureBorder { repeat, clamp };
 constexpr auto choices(TextureBorder) { return std::array<std::string_view, 2>{"repeat", "clamp"}; }
-enum class TextureFilter { bilinear, nearest };
+/// Bilinear is the default because it is what lightwave does: its scenes keep their pictures.
+enum class TextureFilter { bilinear, nearest, mipmap };
 constexpr auto choices(TextureFilter) {
-    return std::array<std::string_view, 2>{"bilinear", "nearest"};
+    return std::array<std::string_view, 3>{"bilinear", "nearest", "mipmap"};
 }
 
 /// Names as in MaterialX. Files of floats are linear whatever is said here.
@@ -62,7 +63,11 @@ struct ImageTexture {
         f("exposure", exposure, {.min = 0, .help = "A factor on all values."});
         f("border", border,
           {.help = "What lies outside of [0, 1]: the image again, or its border pixels."});
-        f("filter", filter, {.help = "How values between pixel centres are made."});
+        f("filter", filter,
+          {.help = "How values between pixel centres are made. `mipmap` also averages the pixels "
+                   "that a ray cannot tell apart, from smaller copies of the image: best for large "
+                   "and for distant textures. Opacity, emission and backgrounds take it as "
+                   "`bilinear`."});
         f("linear", linear, {.help = "The file holds data (roughness, normals), not colours."});
         f("colorSpace", color_space,
           {.help = "How 8 and 16 bit files encode colours: a gamma of 2.2 as lightwave has it, "

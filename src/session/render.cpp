@@ -130,7 +130,8 @@ RenderResult render(world::World const& world, io::RenderJob const& job,
     RenderResult result;
     result.region = region_of(world, options);
     result.samples = uint32_t(options.spp > 0 ? options.spp : sample_count(job.sampler));
-    integrator::PixelRenderer const renderer(world, job.integrator, job.sampler, options.seed);
+    integrator::PixelRenderer const renderer(world, job.integrator, job.sampler, options.seed,
+                                             int(result.samples));
     film::Film film(result.region);
     TileRenderer tiles(renderer, film, result);
     auto const regions = make_tiles(result.region, options.tile_size);

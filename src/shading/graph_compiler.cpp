@@ -7,6 +7,18 @@ namespace weft::shading {
 
 namespace {
 
+ImageFilter image_filter(scene::TextureFilter filter) {
+    switch (filter) {
+    case scene::TextureFilter::nearest:
+        return ImageFilter::nearest;
+    case scene::TextureFilter::bilinear:
+        break;
+    case scene::TextureFilter::mipmap:
+        return ImageFilter::mipmap;
+    }
+    return ImageFilter::bilinear;
+}
+
 /// Passed to `describe`: what the unconnected inputs of a node take from the point, and whether
 /// any input is connected.
 struct InputNeeds {
@@ -96,8 +108,7 @@ Operand GraphCompiler::translate(scene::ImageTexture const& node, scene::ValueTy
     op.texcoord = node.texcoord;
     connect(op.texcoord);
     op.lookup = {scene_.images[size_t(node.filename.resource)], node.exposure,
-                 node.border == scene::TextureBorder::clamp,
-                 node.filter == scene::TextureFilter::nearest};
+                 node.border == scene::TextureBorder::clamp, image_filter(node.filter)};
     bool const connected = bool(op.texcoord.texture);
     return finish(op, connected ? Needs::nothing : Needs::uv, connected, type);
 }

@@ -1,24 +1,35 @@
-// Images as the render reads them: float pixels and how they are looked up.
+// Images as the render reads them: how a uv becomes a value.
 //
-// Left out until textures are cached: filtering by ray footprints.
+// `mipmap` reads the two mip levels whose texels are about as large as the footprint, and goes
+// linearly from one to the other (Williams 1983). The level follows the footprint's shorter axis,
+// but is at most two levels finer than the longer one asks for (Heckbert 1989, 2.5): what is then
+// left of the longer axis, the many samples of a pixel average. So one lookup reads 8 texels
+// whatever the angle, grazing views stay sharp, and no texture is read at a much finer level than
+// is seen.
 #pragma once
 
 #include <memory>
 
 #include "base/color.h"
 #include "base/vec.h"
-#include "image/image.h"
+#include "image/texture.h"
+#include "shading/footprint.h"
 
 namespace weft::shading {
 
+enum class ImageFilter : uint8_t { nearest, bilinear, mipmap };
+
 /// An image over the unit square; v runs upwards, so that v = 1 is the top row.
 struct ImageLookup {
-    std::shared_ptr<image::Image const> image;
+    std::shared_ptr<image::Texture const> image;
     float exposure = 1;
     bool clamp = false;
-    bool nearest = false;
+    ImageFilter filter = ImageFilter::bilinear;
 
-    Color at(Vec2 uv) const;
+    /// `footprint` matters to `mipmap` alone.
+    Color at(Vec2 uv, UvFootprint const& footprint = {}) const;
+    /// The mip level, in parts, for a footprint; 0 and less is the image itself.
+    float level_of(UvFootprint const& footprint) const;
 };
 
 } // namespace weft::shading

@@ -27,7 +27,9 @@ inline Vec3 run(scene::ConstantTexture const& n, NodeContext const&) { return to
 inline Vec3 run(MeanOp const& n, NodeContext const& at) { return Vec3(average(at(n.in))); }
 
 inline Vec3 run(ImageOp const& n, NodeContext const& at) {
-    return to_vector(n.lookup.at(at(n.texcoord)));
+    // How a network stretches uvs is not followed: behind one, images are read at their finest.
+    return to_vector(
+        n.lookup.at(at(n.texcoord), n.texcoord.texture ? UvFootprint{} : at.point.footprint));
 }
 
 inline Vec3 run(scene::Checkerboard const& n, NodeContext const& at) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/vec.h"
+#include "shading/footprint.h"
 
 namespace weft::shading {
 
@@ -15,6 +16,7 @@ struct SurfacePoint {
                            ///< or nothing looks at it
     Vec3 dpdv{0, 0, 0};    ///< along growing v, likewise
     Vec2 uv{0, 0};
+    UvFootprint footprint;  ///< of the ray that met it; 0 where no texture asks for it
     float t = 0;            ///< distance from the ray's origin in units of its direction
     uint32_t object = 0;    ///< which object of the world
     uint32_t primitive = 0; ///< which triangle of it

@@ -10,14 +10,13 @@ namespace weft::world {
 namespace {
 
 /// The brightness of an aperture image as a density over the square around the lens.
-std::shared_ptr<Distribution2D const> aperture_density(image::Image const& image) {
+std::shared_ptr<Distribution2D const> aperture_density(image::Texture const& image) {
     std::vector<float> weights;
     weights.reserve(size_t(image.width) * size_t(image.height));
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
-            bool const grey = image.channels < 3;
-            float const v = luminance(
-                {image.at(x, y, 0), image.at(x, y, grey ? 0 : 1), image.at(x, y, grey ? 0 : 2)});
+            image::Texel const texel = image.texel(0, x, y);
+            float const v = luminance({texel[0], texel[1], texel[2]});
             weights.push_back(std::isfinite(v) && v > 0 ? v : 0);
         }
     return std::make_shared<Distribution2D const>(weights, uint32_t(image.width),
@@ -27,7 +26,7 @@ std::shared_ptr<Distribution2D const> aperture_density(image::Image const& image
 } // namespace
 
 CameraRays::CameraRays(scene::Camera const& camera,
-                       std::vector<std::shared_ptr<image::Image const>> const& images) {
+                       std::vector<std::shared_ptr<image::Texture const>> const& images) {
     auto set_view = [&](scene::Viewpoint const& view, scene::FovAxis axis) {
         to_world_ = Affine(view.transform);
         size_ = {view.width, view.height};
@@ -61,9 +60,14 @@ CameraRays::CameraRays(scene::Camera const& camera,
                camera);
 }
 
+/// Half of a pixel's width on the plane at distance 1, or in an orthographic view anywhere.
+float CameraRays::half_pixel() const {
+    return scale_ / float(scale_is_vertical_ ? size_.y : size_.x);
+}
+
 Vec2 CameraRays::on_screen(Vec2 raster) const {
     float const w = float(size_.x), h = float(size_.y);
-    float const unit = scale_ / (scale_is_vertical_ ? h : w);
+    float const unit = half_pixel();
     return {(2 * raster.x - w) * unit, (2 * raster.y - h) * unit};
 }
 
@@ -82,15 +86,19 @@ Vec2 CameraRays::on_lens(Vec2 u) const {
     return {b.x * std::cos(from) + b.y * std::cos(to), b.x * std::sin(from) + b.y * std::sin(to)};
 }
 
-Ray CameraRays::ray(Vec2 raster, Vec2 lens, float time) const {
+Ray CameraRays::ray(Vec2 raster, Vec2 lens, float time, float footprint_scale) const {
     Vec3 origin(0), direction(0, 0, 1);
+    RayCone cone;
     if (projection_ == Projection::Environment) {
         direction =
             lights::uv_to_direction({raster.x / float(size_.x), 1 - raster.y / float(size_.y)});
+        cone.spread = kPi / float(size_.y);
     } else if (Vec2 const s = on_screen(raster); projection_ == Projection::Orthographic) {
         origin = {s.x, s.y, 0};
+        cone.width = 2 * half_pixel() * length(to_world_.vector({1, 0, 0}));
     } else {
         direction = {s.x, s.y, 1};
+        cone.spread = 2 * half_pixel() / length(direction);
         if (lens_radius_ > 0) {
             Vec2 const l = on_lens(lens) * lens_radius_;
             origin = {l.x, l.y, 0};
@@ -101,6 +109,7 @@ Ray CameraRays::ray(Vec2 raster, Vec2 lens, float time) const {
     ray.origin = to_world_.point(origin);
     ray.direction = normalize(to_world_.vector(direction));
     ray.time = time;
+    ray.cone = {cone.width * footprint_scale, cone.spread * footprint_scale};
     // What is nearer than the rounding of the camera's own place cannot be told to be in front.
     ray.t_min = std::max(ray.t_min, kRounding * max_component(abs(ray.origin)));
     return ray;

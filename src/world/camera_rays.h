@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/distribution.h"
-#include "image/image.h"
+#include "image/texture.h"
 #include "scene/camera.h"
 #include "world/ray.h"
 
@@ -15,7 +15,7 @@ class CameraRays {
   public:
     CameraRays() = default;
     CameraRays(scene::Camera const& camera,
-               std::vector<std::shared_ptr<image::Image const>> const& images);
+               std::vector<std::shared_ptr<image::Texture const>> const& images);
 
     /// Replaces the size of the picture; the field of view stays what the scene says.
     void resize(Vec2i size) { size_ = size; }
@@ -23,12 +23,14 @@ class CameraRays {
     Vec3 position() const { return to_world_.origin; }
     bool has_lens() const { return lens_radius_ > 0; } ///< whether `lens` matters to `ray`
 
-    /// `raster`: pixels from the upper left corner; `lens` in [0, 1)^2.
-    Ray ray(Vec2 raster, Vec2 lens, float time) const;
+    /// `raster`: pixels from the upper left corner; `lens` in [0, 1)^2. The ray's cone is
+    /// `footprint_scale` times as wide as a pixel.
+    Ray ray(Vec2 raster, Vec2 lens, float time, float footprint_scale = 1) const;
 
   private:
     enum class Projection { Perspective, Orthographic, Environment };
 
+    float half_pixel() const;
     Vec2 on_screen(Vec2 raster) const;
     Vec2 on_lens(Vec2 u) const;
 

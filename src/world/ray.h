@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "base/vec.h"
+#include "world/ray_cone.h"
 
 namespace weft::world {
 
@@ -15,6 +16,7 @@ struct Ray {
     /// a triangle as hitting it at 0.
     float t_min = 1e-18f;
     float time = 0; ///< in [0, 1] of the shutter interval
+    RayCone cone;   ///< for texture lookups where the ray ends
 };
 
 /// The kernel's answer: which primitive, and where on it.

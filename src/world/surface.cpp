@@ -27,10 +27,11 @@ shading::SurfacePoint World::surface(Ray const& ray, Hit const& hit) const {
     Vec3 const local = object.kind == ObjectKind::Sphere
                            ? object.to_object.point(ray.origin + ray.direction * hit.t)
                            : Vec3(0);
-    return point_on(hit, local, -ray.direction);
+    return point_on(hit, local, -ray.direction, ray.cone);
 }
 
-shading::SurfacePoint World::point_on(Hit const& hit, Vec3 const& local, Vec3 const& wo) const {
+shading::SurfacePoint World::point_on(Hit const& hit, Vec3 const& local, Vec3 const& wo,
+                                      RayCone const& cone) const {
     Object const& object = objects_[hit.object];
     shading::SurfacePoint point;
     point.t = hit.t;
@@ -41,6 +42,7 @@ shading::SurfacePoint World::point_on(Hit const& hit, Vec3 const& local, Vec3 co
         sphere_point(object, normalize(local), point); // what t has lost does not matter then
     else
         mesh_point(object, hit, point);
+    if (use_footprints_) point.footprint = uv_footprint(object, cone, point);
     if (object.normal_map) apply_normal_map(object, point);
     return point;
 }
@@ -154,7 +156,12 @@ float World::opacity(Hit const& hit, Vec3 const& ng, Vec3 const& direction) cons
 Color World::emission(shading::SurfacePoint const& point, Vec3 const& wo) const {
     Object const& o = objects_[point.object];
     if (!o.emission || dot(point.ng, wo) <= 0) return Color(0);
-    return textures_.at(scene_->emissions[size_t(o.emission.index)].emission, point);
+    auto const& input = scene_->emissions[size_t(o.emission.index)].emission;
+    if (!use_footprints_) return textures_.at(input, point);
+    // As light sampling sees it, which has no ray.
+    shading::SurfacePoint sharp = point;
+    sharp.footprint = {};
+    return textures_.at(input, sharp);
 }
 
 shading::Shading World::shade(shading::SurfacePoint const& point, Vec3 const& wo,

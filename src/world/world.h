@@ -136,7 +136,10 @@ class World {
     float opacity(Hit const& hit, Vec3 const& ng, Vec3 const& direction) const;
     /// A point of a mesh at `hit`, or of a sphere in direction `local` from its centre, both in
     /// the object's space; seen from unit `wo`.
-    shading::SurfacePoint point_on(Hit const& hit, Vec3 const& local, Vec3 const& wo) const;
+    shading::SurfacePoint point_on(Hit const& hit, Vec3 const& local, Vec3 const& wo,
+                                   RayCone const& cone = {}) const;
+    shading::UvFootprint uv_footprint(Object const& object, RayCone const& cone,
+                                      shading::SurfacePoint const& point) const;
 
   private:
     friend class WorldBuilder;
@@ -162,6 +165,7 @@ class World {
     WorldStatistics statistics_;
     bool has_media_ = false;
     bool has_alpha_ = false;
+    bool use_footprints_ = false; ///< some texture depends on them
     RTCDevice device_ = nullptr;
     RTCScene embree_scene_ = nullptr;
     std::vector<RTCScene> instanced_scenes_;

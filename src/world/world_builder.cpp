@@ -38,6 +38,9 @@ void WorldBuilder::build(CommitOptions const& options) {
     auto const& camera = scene_.cameras[size_t(scene_.contents.camera.index)];
     world_.camera_ = CameraRays(camera, scene_.images);
     if (options.size.x > 0) world_.camera_.resize(options.size);
+    for (scene::Texture const& node : scene_.textures)
+        if (auto const* image = std::get_if<scene::ImageTexture>(&node))
+            world_.use_footprints_ |= image->filter == scene::TextureFilter::mipmap;
     rectangle_ = make_rectangle();
     collect_instances();
     compile_networks();
@@ -231,9 +234,9 @@ void WorldBuilder::count() {
     WorldStatistics& s = world_.statistics_;
     s.objects = world_.objects_.size();
     s.lights = world_.lights_.size();
-    std::set<image::Image const*> images;
+    std::set<image::Texture const*> images;
     for (auto const& image : scene_.images) images.insert(image.get());
-    for (auto const* image : images) s.memory_bytes += image->pixels.size() * sizeof(float);
+    for (auto const* image : images) s.memory_bytes += image->memory_bytes();
     for (TriangleData const& t : world_.triangles_) {
         s.unique_triangles += t.source->triangles.size();
         s.memory_bytes += t.vertices.size() * sizeof(Vertex) + t.source->triangles.size() * 12;

@@ -4,14 +4,29 @@
 
 #include "apps/weft/commands.h"
 #include "apps/weft/scene_loading.h"
+#include "apps/weft/texture_options.h"
 #include "session/render.h"
 
 namespace weft::apps {
 
 namespace {
 
-int run(std::string const& path) {
-    io::SceneFile const file = io::read_scene_file(path);
+struct Arguments {
+    std::string scene;
+    TextureArguments textures;
+};
+
+void print_textures(image::TextureStatistics const& s) {
+    fmt::print("textures: {} in memory, {:.1f} MB", s.in_memory, double(s.memory_bytes) / 1e6);
+    if (s.in_tiles > 0)
+        fmt::print("; {} in tiles, {:.1f} MB of which at most {:.1f} MB at a time", s.in_tiles,
+                   double(s.tile_bytes) / 1e6, double(s.tile_limit) / 1e6);
+    fmt::print("\n");
+}
+
+int run(Arguments const& args) {
+    io::SceneFile const file =
+        io::read_scene_file(args.scene, {}, make_texture_cache(args.textures));
     for (io::RenderJob const& job : file.jobs) {
         auto const world = world::World::commit(job.scene);
         world::WorldStatistics const& s = world->statistics();
@@ -20,12 +35,13 @@ int run(std::string const& path) {
                    match(job.integrator, [](auto const& i) { return i.info.type; }), size.x, size.y,
                    session::sample_count(job.sampler));
         fmt::print("  objects    {}\n  triangles  {} ({} stored)\n  lights     {}\n  textures   {} "
-                   "images\n  memory     {:.1f} MB of geometry and textures\n",
+                   "images\n  memory     {:.1f} MB of geometry and of textures in memory\n",
                    s.objects, s.triangles, s.unique_triangles, s.lights, job.scene->images.size(),
                    double(s.memory_bytes) / 1e6);
         for (std::string const& warning : lint_warnings(*world))
             fmt::print("  warning: {}\n", warning);
     }
+    print_textures(file.textures->statistics());
     for (std::string const& warning : file.warnings) fmt::print("warning: {}\n", warning);
     return kDone;
 }
@@ -33,11 +49,12 @@ int run(std::string const& path) {
 } // namespace
 
 void add_info_command(CLI::App& app, Command& chosen) {
-    auto scene = std::make_shared<std::string>();
+    auto args = std::make_shared<Arguments>();
     CLI::App* c =
         app.add_subcommand("info", "Tell what a scene holds, and what looks like a mistake");
-    c->add_option("scene", *scene, "The scene file")->required()->type_name("SCENE");
-    c->callback([scene, &chosen] { chosen = [scene] { return run(*scene); }; });
+    c->add_option("scene", args->scene, "The scene file")->required()->type_name("SCENE");
+    add_texture_options(*c, args->textures);
+    c->callback([args, &chosen] { chosen = [args] { return run(*args); }; });
 }
 
 } // namespace weft::apps

@@ -7,6 +7,7 @@
 #include "apps/weft/interrupt.h"
 #include "apps/weft/progress_line.h"
 #include "apps/weft/scene_loading.h"
+#include "apps/weft/texture_options.h"
 #include "image/write.h"
 #include "session/render.h"
 
@@ -23,6 +24,7 @@ struct RenderArguments {
     std::string progress = "auto";
     std::vector<std::string> overrides;
     std::string isa;
+    TextureArguments textures;
     session::RenderOptions options;
 };
 
@@ -73,7 +75,8 @@ void report_bad_samples(session::RenderResult const& r, uint32_t seed) {
                    b.sample, seed, b.value.r, b.value.g, b.value.b);
 }
 
-int render_job(RenderArguments& a, io::RenderJob const& job, bool only_job) {
+int render_job(RenderArguments& a, io::RenderJob const& job, bool only_job,
+               image::TextureCache const& textures) {
     auto const paths = output_paths(a, job, only_job);
     for (std::string const& path : paths) image::check_writable(path);
     auto const world = world::World::commit(job.scene, {a.isa, parse_size(a.size, *job.scene)});
@@ -87,6 +90,8 @@ int render_job(RenderArguments& a, io::RenderJob const& job, bool only_job) {
     session::RenderResult const result = session::render(*world, job, a.options);
     if (result.cancelled) progress.stop();
     report_bad_samples(result, a.options.seed);
+    if (std::string const failure = textures.failure(); !failure.empty())
+        fmt::print(stderr, "warning: a texture was lost during the render: {}\n", failure);
     if (result.least_samples == 0) {
         fmt::print(stderr, "stopped before every pixel had a sample: no file is overwritten\n");
         return kInterrupted;
@@ -108,10 +113,14 @@ int render_job(RenderArguments& a, io::RenderJob const& job, bool only_job) {
 }
 
 int run(RenderArguments& a) {
-    io::SceneFile const file = io::read_scene_file(a.scene, a.overrides);
+    a.textures.show_conversion = a.progress != "none" && a.progress != "json";
+    io::SceneFile const file =
+        io::read_scene_file(a.scene, a.overrides, make_texture_cache(a.textures));
     for (std::string const& warning : file.warnings) fmt::print(stderr, "warning: {}\n", warning);
     for (io::RenderJob const& job : file.jobs)
-        if (int const code = render_job(a, job, file.jobs.size() == 1); code != kDone) return code;
+        if (int const code = render_job(a, job, file.jobs.size() == 1, *file.textures);
+            code != kDone)
+            return code;
     return kDone;
 }
 
@@ -147,6 +156,7 @@ void add_render_command(CLI::App& app, Command& chosen) {
          "--isa", a->isa,
          "Pin the ray kernel's instruction set, so that different machines give the same bits")
         ->check(CLI::IsMember({"sse2", "sse4.2", "avx", "avx2", "avx512"}));
+    add_texture_options(*c, a->textures);
     c->callback([a, &chosen] { chosen = [a] { return run(*a); }; });
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "apps/weft/commands.h"
+#include "apps/weft/texture_options.h"
 #include "image/compare.h"
 #include "image/write.h"
 #include "session/render.h"
@@ -36,11 +37,12 @@ bool run_test(io::RenderJob const& job, session::RenderOptions const& options) {
     return passed;
 }
 
-int run(std::vector<std::string> const& files, session::RenderOptions const& options) {
+int run(std::vector<std::string> const& files, session::RenderOptions const& options,
+        TextureArguments const& textures) {
     int passed = 0, failed = 0, broken = 0;
     for (std::string const& name : files) {
         try {
-            io::SceneFile const file = io::read_scene_file(name);
+            io::SceneFile const file = io::read_scene_file(name, {}, make_texture_cache(textures));
             int tests = 0;
             for (io::RenderJob const& job : file.jobs)
                 if (job.test) {
@@ -64,6 +66,7 @@ void add_test_command(CLI::App& app, Command& chosen) {
     struct Arguments {
         std::vector<std::string> files;
         session::RenderOptions options;
+        TextureArguments textures;
     };
     auto a = std::make_shared<Arguments>();
     CLI::App* c =
@@ -72,7 +75,8 @@ void add_test_command(CLI::App& app, Command& chosen) {
     c->add_option("--threads", a->options.threads, "Number of threads; 0 is one per processor")
         ->check(CLI::Range(0, 1024));
     c->add_option("--seed", a->options.seed, "Another seed gives other noise");
-    c->callback([a, &chosen] { chosen = [a] { return run(a->files, a->options); }; });
+    add_texture_options(*c, a->textures);
+    c->callback([a, &chosen] { chosen = [a] { return run(a->files, a->options, a->textures); }; });
 }
 
 } // namespace weft::apps

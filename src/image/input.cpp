@@ -1,0 +1,118 @@
+#include "image/input.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <string_view>
+#include <vector>
+
+#include "base/error.h"
+
+namespace weft::image {
+
+namespace {
+
+constexpr uint64_t kMaxFloats = uint64_t(1) << 32;
+
+/// The JPEG library fills what a truncated file lacks with grey and calls it a warning, so the
+/// end mark is looked for here. Some cameras append a few kilobytes after it.
+void check_jpeg_end(std::string const& path) {
+    std::unique_ptr<std::FILE, int (*)(std::FILE*)> const file(std::fopen(path.c_str(), "rb"),
+                                                               std::fclose);
+    std::vector<char> tail(1 << 16);
+    std::fseek(file.get(), 0, SEEK_END);
+    long const size = std::ftell(file.get());
+    std::fseek(file.get(), std::max(0L, size - long(tail.size())), SEEK_SET);
+    tail.resize(std::fread(tail.data(), 1, tail.size(), file.get()));
+    if (std::string_view(tail.data(), tail.size()).rfind("\xff\xd9") == std::string_view::npos)
+        throw InputError({path}, "truncated: expected the end mark of a JPEG, found none in " +
+                                     std::to_string(size) + " bytes");
+}
+
+} // namespace
+
+std::unique_ptr<OIIO::ImageInput> open_image(std::string const& path) {
+    // Told apart here because OpenImageIO's own message differs by format.
+    if (std::FILE* const file = std::fopen(path.c_str(), "rb"))
+        std::fclose(file);
+    else
+        throw InputError({path}, std::string("cannot open the image: ") + std::strerror(errno));
+    OIIO::ImageSpec config;
+    config["oiio:UnassociatedAlpha"] = 1; // as stored
+    auto input = OIIO::ImageInput::open(path, &config);
+    if (!input) {
+        std::string reason = OIIO::geterror();
+        throw InputError({path}, "expected an image, found none that can be decoded: " + reason);
+    }
+    return input;
+}
+
+std::unique_ptr<OIIO::ImageInput> open_flat_image(std::string const& path) {
+    auto input = open_image(path);
+    OIIO::ImageSpec const& spec = input->spec();
+    if (spec.deep) throw InputError({path}, "expected a flat image, found a deep one");
+    if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1)
+        throw InputError({path}, "expected an image, found " + std::to_string(spec.width) + " x " +
+                                     std::to_string(spec.height) + " x " +
+                                     std::to_string(spec.depth) + " pixels of " +
+                                     std::to_string(spec.nchannels) + " channels");
+    // Two factors below 2^31 times one below 2^16 fit: OpenImageIO's formats hold no more.
+    uint64_t const area = uint64_t(spec.width) * uint64_t(spec.height);
+    if (area > kMaxFloats / uint64_t(spec.nchannels))
+        throw InputError({path}, "expected at most 16 GiB of floats, found " +
+                                     std::to_string(spec.width) + " x " +
+                                     std::to_string(spec.height) + " pixels of " +
+                                     std::to_string(spec.nchannels) + " channels");
+    return input;
+}
+
+void check_read(OIIO::ImageInput& input, std::string const& path, bool succeeded) {
+    // For a truncated TIFF the call succeeds, and only the message tells.
+    std::string const reason = input.geterror();
+    OIIO::ImageSpec const& spec = input.spec();
+    if (!succeeded || !reason.empty())
+        throw InputError({path}, "expected " + std::to_string(spec.width) + " x " +
+                                     std::to_string(spec.height) +
+                                     " pixels, found a damaged or truncated file: " +
+                                     reason.substr(0, reason.find('\n')));
+}
+
+void check_end(OIIO::ImageInput const& input, std::string const& path) {
+    if (std::string_view(input.format_name()) == "jpeg") check_jpeg_end(path);
+}
+
+bool is_srgb_encoded(OIIO::ImageSpec const& spec) {
+    auto const type = spec.format.basetype;
+    if (type != OIIO::TypeDesc::UINT8 && type != OIIO::TypeDesc::UINT16) return false;
+    std::string const space = spec.get_string_attribute("oiio:ColorSpace");
+    return !OIIO::Strutil::iequals(space, "linear") && !OIIO::Strutil::iequals(space, "raw");
+}
+
+TexelFormat texel_format(OIIO::ImageSpec const& spec, Transfer transfer) {
+    TexelFormat format;
+    format.channels = spec.nchannels >= 3 ? 3 : 1;
+    auto const type = spec.format.basetype;
+    format.type = type == OIIO::TypeDesc::UINT8    ? TexelType::u8
+                  : type == OIIO::TypeDesc::UINT16 ? TexelType::u16
+                  : type == OIIO::TypeDesc::HALF   ? TexelType::f16
+                                                   : TexelType::f32;
+    if (is_srgb_encoded(spec)) format.transfer = transfer;
+    return format;
+}
+
+OIIO::TypeDesc oiio_type(TexelType type) {
+    switch (type) {
+    case TexelType::u8:
+        return OIIO::TypeDesc::UINT8;
+    case TexelType::u16:
+        return OIIO::TypeDesc::UINT16;
+    case TexelType::f16:
+        return OIIO::TypeDesc::HALF;
+    case TexelType::f32:
+        return OIIO::TypeDesc::FLOAT;
+    }
+    return OIIO::TypeDesc::FLOAT;
+}
+
+} // namespace weft::image

@@ -1,0 +1,158 @@
+#include "image/texture_cache.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+
+#include "base/error.h"
+#include "base/hash.h"
+#include "image/image.h"
+#include "image/input.h"
+#include "image/texture_file.h"
+#include "image/tile_cache.h"
+
+namespace weft::image {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// To be counted up when converted files change, so that old ones are not taken for new.
+constexpr char kFormatVersion[] = "1";
+
+struct FileFacts {
+    TexelFormat format;
+    uint64_t texels = 0;
+    bool has_tiles = false; ///< and mip levels
+};
+
+FileFacts facts_of(std::string const& path, Transfer transfer) {
+    auto const input = open_flat_image(path);
+    OIIO::ImageSpec const& spec = input->spec();
+    FileFacts facts{texel_format(spec, transfer), spec.image_pixels(), spec.tile_width > 0};
+    facts.has_tiles = facts.has_tiles && input->seek_subimage(0, 1);
+    return facts;
+}
+
+/// The name that a file's conversion has in the folder.
+std::string converted_name(std::string const& path, Transfer transfer) {
+    fs::path const whole = fs::canonical(path);
+    std::string const key = whole.string() + '\n' + std::to_string(fs::file_size(whole)) + '\n' +
+                            std::to_string(fs::last_write_time(whole).time_since_epoch().count()) +
+                            '\n' + std::to_string(int(transfer)) + '\n' + kFormatVersion;
+    char digits[17];
+    std::snprintf(digits, sizeof digits, "%016llx",
+                  static_cast<unsigned long long>(hash64(hash_bytes(key))));
+    return whole.stem().string() + "-" + digits + ".tx";
+}
+
+} // namespace
+
+std::string default_texture_folder() {
+    if (char const* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache)
+        return std::string(cache) + "/weft/textures";
+    if (char const* home = std::getenv("HOME"); home && *home)
+        return std::string(home) + "/.cache/weft/textures";
+    return "";
+}
+
+TextureCache::TextureCache(TextureCacheOptions options)
+    : options_(std::move(options)), tiles_(std::make_shared<TileCache>()) {
+    if (options_.folder.empty()) options_.folder = default_texture_folder();
+    share_memory();
+}
+
+/// What images in memory leave, but at least a quarter.
+uint64_t TextureCache::tile_limit() const {
+    uint64_t const left = options_.memory - std::min(memory_bytes_, options_.memory);
+    return std::max(left, options_.memory / 4);
+}
+
+void TextureCache::share_memory() { tiles_->limit(tile_limit()); }
+
+std::shared_ptr<Texture const> TextureCache::load(std::string const& path, Transfer transfer,
+                                                  bool mip_levels) {
+    auto& texture = textures_[{path, transfer}];
+    try {
+        if (!texture) texture = std::make_shared<Texture>(read(path, transfer));
+    } catch (...) {
+        textures_.erase({path, transfer});
+        throw;
+    }
+    if (mip_levels && texture->is_in_memory()) {
+        memory_bytes_ -= texture->memory_bytes();
+        texture->add_levels();
+        memory_bytes_ += texture->memory_bytes();
+        share_memory();
+    }
+    return texture;
+}
+
+Texture TextureCache::read(std::string const& path, Transfer transfer) {
+    FileFacts const facts = facts_of(path, transfer);
+    if (facts.has_tiles) return in_tiles(path, transfer);
+    uint64_t const bytes = facts.texels * facts.format.bytes();
+    // Mip levels take another third.
+    bool const fits = memory_bytes_ + bytes + bytes / 3 <= options_.memory / 2;
+    if (facts.texels > options_.small_texels || !fits) {
+        // Integers that the file says are linear, the converted file does not tell from others.
+        std::string const tiled = converted(path, facts.format.transfer);
+        if (!tiled.empty()) return in_tiles(tiled, facts.format.transfer);
+    }
+    Texture texture = read_texture(path, transfer);
+    memory_bytes_ += texture.memory_bytes();
+    share_memory();
+    return texture;
+}
+
+Texture TextureCache::in_tiles(std::string const& path, Transfer transfer) {
+    auto tiles = std::make_shared<TiledFile const>(tiles_, path, transfer);
+    return Texture::in_tiles(tiles->format(), tiles->levels(), tiles);
+}
+
+/// The path of the converted file; "" where the folder cannot be written.
+std::string TextureCache::converted(std::string const& path, Transfer transfer) {
+    auto warn = [&](std::string const& reason) {
+        warnings_.push_back(path +
+                            ": read whole, whatever --texture-memory says: its conversion "
+                            "cannot be kept in the texture cache folder: " +
+                            reason);
+        return "";
+    };
+    if (options_.folder.empty()) return warn("neither XDG_CACHE_HOME nor HOME is set");
+    std::string const tiled = (fs::path(options_.folder) / converted_name(path, transfer)).string();
+    if (fs::exists(tiled)) {
+        try {
+            if (facts_of(tiled, transfer).texels == facts_of(path, transfer).texels) return tiled;
+        } catch (InputError const&) {
+            // Damaged; it is made anew.
+        }
+    }
+    try {
+        std::error_code ignored; // the file tells better
+        fs::create_directories(options_.folder, ignored);
+        make_texture_file(path, tiled, transfer, [&](double fraction) {
+            if (options_.on_conversion) options_.on_conversion(path, fraction);
+        });
+    } catch (IoError const& e) {
+        return warn(e.what());
+    }
+    return tiled;
+}
+
+std::string TextureCache::failure() const { return tiles_->failure(); }
+
+TextureStatistics TextureCache::statistics() const {
+    TextureStatistics s;
+    for (auto const& [key, texture] : textures_) {
+        ++(texture->is_in_memory() ? s.in_memory : s.in_tiles);
+        s.memory_bytes += texture->memory_bytes();
+        if (texture->tiles()) s.tile_bytes += texture->tiles()->texel_bytes();
+    }
+    s.tile_limit = tile_limit();
+    s.read_bytes = tiles_->bytes_read();
+    return s;
+}
+
+} // namespace weft::image
