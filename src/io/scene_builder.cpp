@@ -226,6 +226,16 @@ void SceneBuilder::complete(scene::Instance& instance, XmlElement const& element
                              std::string(schema::type_name(type)));
 }
 
+void SceneBuilder::complete(scene::nodes::Convert& node, XmlElement const& element) {
+    if (!node.in.texture || node.output_type() != scene::ValueType::number) return;
+    auto const type = texture_type(node.in.texture);
+    if (type == scene::ValueType::vector2 || type == scene::ValueType::vector3)
+        throw InputError(location_of(element, "in"), "'in' of " + element_title(element) +
+                                                         " expects a float or a color, found a " +
+                                                         std::string(schema::type_name(type)) +
+                                                         "; `extract` makes a float of it");
+}
+
 void SceneBuilder::complete(scene::ThinLens& camera, XmlElement const& element) {
     if (camera.bokeh.path.empty()) return;
     SourceLocation const& where = location_of(element, "bokeh");

@@ -83,6 +83,7 @@ class SceneBuilder {
     template <class T>
     void complete(T&, XmlElement const&) {}
     void complete(scene::Instance& instance, XmlElement const& element);
+    void complete(scene::nodes::Convert& node, XmlElement const& element);
     void complete(scene::ImageTexture& texture, XmlElement const& element);
     void complete(scene::ThinLens& camera, XmlElement const& element);
     void complete(scene::MeshShape& mesh, XmlElement const& element);

@@ -8,6 +8,10 @@
 #include <variant>
 
 #include "scene/handles.h"
+#include "scene/nodes_color.h"
+#include "scene/nodes_geometry.h"
+#include "scene/nodes_math.h"
+#include "scene/nodes_procedural.h"
 #include "schema/describe.h"
 
 namespace weft::scene {
@@ -92,6 +96,17 @@ struct Checkerboard {
     }
 };
 
-using Texture = std::variant<ConstantTexture, ImageTexture, Checkerboard>;
+using Texture = std::variant<
+    ConstantTexture, ImageTexture, Checkerboard, nodes::Place2d, nodes::RampLr, nodes::RampTb,
+    nodes::Noise2d, nodes::Noise3d, nodes::Fractal3d, nodes::CellNoise2d, nodes::CellNoise3d,
+    nodes::WorleyNoise2d, nodes::WorleyNoise3d, nodes::ColorRamp, nodes::Blackbody, nodes::Mix,
+    nodes::Add, nodes::Subtract, nodes::Multiply, nodes::Divide, nodes::Modulo, nodes::Power,
+    nodes::Min, nodes::Max, nodes::Absval, nodes::Floor, nodes::Ceil, nodes::Sin, nodes::Cos,
+    nodes::Invert, nodes::Clamp, nodes::Remap, nodes::Smoothstep, nodes::Range, nodes::Contrast,
+    nodes::Luminance, nodes::Saturate, nodes::HsvAdjust, nodes::ColorCorrect, nodes::DotProduct,
+    nodes::CrossProduct, nodes::Normalize, nodes::Magnitude, nodes::Extract, nodes::Combine2,
+    nodes::Combine3, nodes::Convert, nodes::Position, nodes::Normal, nodes::Tangent,
+    nodes::Texcoord, nodes::FacingRatio, nodes::GeomPropValue, nodes::InstanceRandom,
+    nodes::NormalMap, nodes::Bump, nodes::Triplanar>;
 
 } // namespace weft::scene
