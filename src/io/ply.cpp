@@ -11,16 +11,15 @@ namespace ply {
 std::vector<Column> make_columns(Header const& header, scene::Mesh& mesh) {
     Element const& e = header.elements[header.vertex];
     std::vector<Column> columns;
+    auto scale_of = [&](size_t property) { // of integers that stand for 0 to 1
+        size_t const size = size_of(e.properties[property].type);
+        if (!is_integer(e.properties[property].type)) return 1.f;
+        return size == 1 ? 1 / 255.f : size == 2 ? 1 / 65535.f : 0x1p-32f;
+    };
     auto add = [&](int first, size_t n, float* data) {
         for (size_t k = 0; k < n; ++k) {
             auto const property = size_t(header.column[size_t(first) + k]);
-            Scalar const type = e.properties[property].type;
-            float scale = 1;
-            if (first == kColor && is_integer(type))
-                scale = size_of(type) == 1   ? 1 / 255.f
-                        : size_of(type) == 2 ? 1 / 65535.f
-                                             : 0x1p-32f;
-            columns.push_back({property, data + k, n, scale});
+            columns.push_back({property, data + k, n, first == kColor ? scale_of(property) : 1});
         }
     };
     if (e.count == 0) return columns;
@@ -37,6 +36,10 @@ std::vector<Column> make_columns(Header const& header, scene::Mesh& mesh) {
     if (header.column[kColor] >= 0) {
         mesh.colors.resize(e.count);
         add(kColor, 3, &mesh.colors[0].r);
+    }
+    for (size_t property : header.extra) {
+        mesh.attributes.push_back({e.properties[property].name, 1, std::vector<float>(e.count)});
+        columns.push_back({property, mesh.attributes.back().values.data(), 1, scale_of(property)});
     }
     return columns;
 }

@@ -3,7 +3,8 @@
 //
 // Polygons are triangulated, normals scaled to length 1; a normal of length 0 becomes that of a
 // face beside it. Integer colours are scaled to [0, 1] and, like real ones, not decoded: whether
-// they are sRGB the file does not say. Left out on purpose: triangle strips and point clouds,
+// they are sRGB the file does not say (a `geompropvalue` node decodes them). Other real properties
+// of vertices, and alpha, are kept by name. Left out on purpose: triangle strips and point clouds,
 // which are refused, and uvs per face corner, which are skipped.
 #pragma once
 

@@ -2,6 +2,7 @@
 
 #include "io/mesh_text.h"
 
+#include <algorithm>
 #include <limits>
 #include <span>
 
@@ -187,6 +188,19 @@ void find_vertex_columns(Header& h) {
         if (h.column[kColor] < 0) find_columns(h, kColor, names);
 }
 
+void find_extra(Header& h) {
+    Element const& e = h.elements[h.vertex];
+    for (size_t i = 0; i < e.properties.size(); ++i) {
+        Property const& p = e.properties[i];
+        bool const used = std::find(h.column.begin(), h.column.end(), int(i)) != h.column.end();
+        if (used || p.is_list || (is_integer(p.type) && p.name != "alpha")) continue;
+        auto same = [&](size_t other) { return e.properties[other].name == p.name; };
+        if (std::find_if(h.extra.begin(), h.extra.end(), same) != h.extra.end())
+            throw InputError(p.where, "property " + quoted(p.name) + " is declared twice");
+        h.extra.push_back(i);
+    }
+}
+
 void find_corners(Header& h) {
     Element const& e = h.elements[h.face];
     bool found = false;
@@ -236,6 +250,7 @@ void check_mesh(Header& h, std::string_view bytes, std::string const& name) {
     if (h.vertex == h.elements.size())
         throw InputError({name}, "expected an element 'vertex', found none");
     find_vertex_columns(h);
+    find_extra(h);
     if (h.elements[h.vertex].count > std::numeric_limits<uint32_t>::max())
         throw InputError(h.elements[h.vertex].where, "more than 2^32 - 1 vertices");
     h.face = find_element(h, "face");

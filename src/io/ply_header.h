@@ -5,7 +5,8 @@
 //           red green blue or diffuse_red ...; all scalars of any type
 //   face    vertex_indices or vertex_index, a list of any integer type
 //
-// Every other element and property is skipped; so are alpha, uvs per face corner, and materials.
+// Reals of other names become vertex attributes, and so does alpha. Every other element and
+// property is skipped; so are uvs per face corner, and materials.
 #pragma once
 
 #include "base/error.h"
@@ -54,6 +55,7 @@ struct Header {
     size_t body = 0;                    ///< offset of the first byte after the header
     size_t vertex = 0, face = 0;        ///< indices of the elements that matter
     std::array<int, kColumns> column{}; ///< the vertex property that fills it, or -1
+    std::vector<size_t> extra;          ///< other vertex properties that a mesh keeps by name
     size_t corners = 0;                 ///< the face property that lists the vertices
 };
 

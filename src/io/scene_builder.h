@@ -83,6 +83,7 @@ class SceneBuilder {
     template <class T>
     void complete(T&, XmlElement const&) {}
     void complete(scene::Instance& instance, XmlElement const& element);
+    void complete(scene::nodes::Convert& node, XmlElement const& element);
     void complete(scene::ImageTexture& texture, XmlElement const& element);
     void complete(scene::ThinLens& camera, XmlElement const& element);
     void complete(scene::MeshShape& mesh, XmlElement const& element);
@@ -103,6 +104,9 @@ class SceneBuilder {
     Summary summary(scene::Instance const& instance) const;
     int32_t load_image(std::string const& path, scene::ColorSpace encoding, bool mip_levels,
                        SourceLocation const& where);
+    /// The set of files that `path`, which holds <UDIM>, stands for.
+    int32_t load_udim(std::string const& folder, std::string const& path,
+                      scene::ColorSpace encoding, bool mip_levels, SourceLocation const& where);
     int32_t load_mesh(std::string const& path, SourceLocation const& where);
 
     Document& document_;

@@ -98,12 +98,14 @@ class Builder {
     void add_element(pugi::xml_node const& node, size_t offset, XmlElement& parent, int depth) {
         auto element = std::make_unique<XmlElement>();
         element->tag = node.name();
+        size_t const tag_length = element->tag.size();
+        if (element->tag == "node") element->tag = "texture";   // two words for one thing
         element->where = location(offset > 0 ? offset - 1 : 0); // pugixml points behind the '<'
         element->folder = folder_;
         if (depth > kMaxNesting)
             throw InputError(element->where, "expected tags nested at most " +
                                                  std::to_string(kMaxNesting) + " deep, found more");
-        size_t from = offset + element->tag.size();
+        size_t from = offset + tag_length;
         std::set<std::string_view> names;
         for (pugi::xml_attribute const& a : node.attributes()) {
             std::string_view const name = a.name();

@@ -151,6 +151,8 @@ void validate(Mesh const& mesh, SourceLocation const& where) {
     check_length(mesh.normals.size(), n, "normals", where);
     check_length(mesh.uvs.size(), n, "uvs", where);
     check_length(mesh.colors.size(), n, "colours", where);
+    for (VertexAttribute const& a : mesh.attributes)
+        check_length(a.values.size(), n * size_t(a.components), a.name.c_str(), where);
     for (size_t i = 0; i < n; ++i)
         if (!is_finite(mesh.positions[i]))
             reject(where, "position", i, mesh.positions[i], "finite numbers");

@@ -10,9 +10,17 @@
 #include "base/vec.h"
 
 #include <span>
+#include <string>
 #include <vector>
 
 namespace weft::scene {
+
+/// A property of the vertices, by name: `components` numbers for each.
+struct VertexAttribute {
+    std::string name;
+    int components = 1;
+    std::vector<float> values;
+};
 
 struct Mesh {
     struct Triangle {
@@ -23,6 +31,7 @@ struct Mesh {
     std::vector<Vec3> normals;   ///< empty, or one of length 1 per vertex
     std::vector<Vec2> uvs;       ///< empty, or one per vertex
     std::vector<Color> colors;   ///< empty, or one per vertex; as the file holds them, 0 to 1
+    std::vector<VertexAttribute> attributes; ///< what else the file says of its vertices
     std::vector<Triangle> triangles;
 };
 

@@ -8,6 +8,10 @@
 #include <variant>
 
 #include "scene/handles.h"
+#include "scene/nodes_color.h"
+#include "scene/nodes_geometry.h"
+#include "scene/nodes_math.h"
+#include "scene/nodes_procedural.h"
 #include "schema/describe.h"
 
 namespace weft::scene {
@@ -59,7 +63,8 @@ struct ImageTexture {
     constexpr void describe(F&& f) {
         f("filename", filename,
           {.required = true,
-           .help = "PNG, JPEG, EXR, HDR, TIFF, ...; relative to the scene file."});
+           .help = "PNG, JPEG, EXR, HDR, TIFF, ...; relative to the scene file. <UDIM> in the name "
+                   "stands for the numbers of tiles, 1001 + u + 10 v."});
         f("exposure", exposure, {.min = 0, .help = "A factor on all values."});
         f("border", border,
           {.help = "What lies outside of [0, 1]: the image again, or its border pixels."});
@@ -97,6 +102,17 @@ struct Checkerboard {
     }
 };
 
-using Texture = std::variant<ConstantTexture, ImageTexture, Checkerboard>;
+using Texture = std::variant<
+    ConstantTexture, ImageTexture, Checkerboard, nodes::Place2d, nodes::RampLr, nodes::RampTb,
+    nodes::Noise2d, nodes::Noise3d, nodes::Fractal3d, nodes::CellNoise2d, nodes::CellNoise3d,
+    nodes::WorleyNoise2d, nodes::WorleyNoise3d, nodes::ColorRamp, nodes::Blackbody, nodes::Mix,
+    nodes::Add, nodes::Subtract, nodes::Multiply, nodes::Divide, nodes::Modulo, nodes::Power,
+    nodes::Min, nodes::Max, nodes::Absval, nodes::Floor, nodes::Ceil, nodes::Sin, nodes::Cos,
+    nodes::Invert, nodes::Clamp, nodes::Remap, nodes::Smoothstep, nodes::Range, nodes::Contrast,
+    nodes::Luminance, nodes::Saturate, nodes::HsvAdjust, nodes::ColorCorrect, nodes::DotProduct,
+    nodes::CrossProduct, nodes::Normalize, nodes::Magnitude, nodes::Extract, nodes::Combine2,
+    nodes::Combine3, nodes::Convert, nodes::Position, nodes::Normal, nodes::Tangent,
+    nodes::Texcoord, nodes::FacingRatio, nodes::GeomPropValue, nodes::InstanceRandom,
+    nodes::NormalMap, nodes::Bump, nodes::Triplanar>;
 
 } // namespace weft::scene

@@ -145,6 +145,35 @@ bool TextForm<AnyValue>::read(std::string_view text, AnyValue& a) {
     return true;
 }
 
+std::string TextForm<ColorStops>::write(ColorStops const& v) {
+    std::string text;
+    for (ColorStop const& s : v.stops)
+        text += (text.empty() ? "" : "; ") + number_text(s.position) + ": " +
+                TextForm<Color>::write(s.color);
+    return text;
+}
+
+bool TextForm<ColorStops>::read(std::string_view text, ColorStops& v) {
+    std::vector<ColorStop> stops;
+    while (true) {
+        size_t const end = text.find(';');
+        std::string_view const one = text.substr(0, end);
+        size_t const colon = one.find(':');
+        if (colon == std::string_view::npos) return false;
+        ColorStop stop;
+        if (!TextForm<float>::read(one.substr(0, colon), stop.position) ||
+            !TextForm<Color>::read(one.substr(colon + 1), stop.color))
+            return false;
+        if (!stops.empty() && !(stop.position > stops.back().position)) return false;
+        stops.push_back(stop);
+        if (end == std::string_view::npos) break;
+        text.remove_prefix(end + 1);
+        if (trimmed(text).empty()) break; // a semicolon at the end
+    }
+    v.stops = std::move(stops);
+    return true;
+}
+
 std::string TextForm<Affined>::write(Affined const& m) {
     if (m == Affined()) return "";
     std::string text;

@@ -120,6 +120,15 @@ struct TextForm<AnyValue> {
     static bool read(std::string_view text, AnyValue& v);
 };
 
+template <>
+struct TextForm<ColorStops> {
+    static constexpr std::string_view kind = "color stops";
+    static constexpr std::string_view expected =
+        "'position: color; position: color; ...' with ascending positions";
+    static std::string write(ColorStops const& v);
+    static bool read(std::string_view text, ColorStops& v);
+};
+
 template <Choice E>
 struct TextForm<E> {
     static constexpr std::string_view kind = "choice", expected = "one of the choices";

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include "base/affine.h"
 #include "base/color.h"
@@ -35,12 +36,19 @@ struct TextureKind {
 };
 
 /// What a node gives and an input takes, named in files as MaterialX does. `inputs`: what the
-/// inputs of type AnyValue have; `triple`: a literal of three numbers, a colour or a vector.
-enum class ValueType : uint8_t { none, number, color, vector2, vector3, inputs, triple };
+/// inputs of type AnyValue have; `chosen`: a parameter says it; `triple`: a literal of three
+/// numbers, a colour or a vector.
+enum class ValueType : uint8_t { none, number, color, vector2, vector3, inputs, chosen, triple };
 
 constexpr std::string_view type_name(ValueType t) {
-    constexpr std::array<std::string_view, 7> names{
-        "nothing", "float", "color", "vector2", "vector3", "what its inputs are", "3 numbers"};
+    constexpr std::array<std::string_view, 8> names{"nothing",
+                                                    "float",
+                                                    "color",
+                                                    "vector2",
+                                                    "vector3",
+                                                    "what its inputs are",
+                                                    "what `output` says",
+                                                    "3 numbers"};
     return names[size_t(t)];
 }
 
@@ -53,6 +61,17 @@ struct AnyValue {
     constexpr explicit AnyValue(float x) : v(x, x, x) {}
     constexpr AnyValue(float x, float y, float z) : v(x, y, z), count(3) {}
     friend constexpr bool operator==(AnyValue const&, AnyValue const&) = default;
+};
+
+/// Colours at ascending positions; at least one.
+struct ColorStop {
+    float position = 0;
+    Color color;
+    friend constexpr bool operator==(ColorStop const&, ColorStop const&) = default;
+};
+struct ColorStops {
+    std::vector<ColorStop> stops{{0, Color(0)}, {1, Color(1)}};
+    friend bool operator==(ColorStops const&, ColorStops const&) = default;
 };
 
 /// The values of inputs that, where nothing is connected, take what the surface has at the point

@@ -12,4 +12,11 @@ void evaluate(Program const& program, SurfacePoint const& point, Values& values)
             match(instruction, [&](auto const& node) -> Vec3 { return run(node, context); });
 }
 
+Vec3 evaluate(Program const& program, SurfacePoint const& point) {
+    if (program.result.reg < 0) return program.result.value;
+    Values values;
+    evaluate(program, point, values);
+    return values[size_t(program.result.reg)];
+}
+
 } // namespace weft::shading

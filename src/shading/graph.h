@@ -22,6 +22,8 @@ namespace weft::shading {
 
 /// Instructions of one program, and so the registers it needs. 128 nodes are 1.5 KB of stack.
 inline constexpr int kMaxRegisters = 128;
+/// Instructions run for one point, where bumps of bumps multiply.
+inline constexpr int kMaxCost = 10000;
 
 /// What a program asks of a SurfacePoint, as a set of bits.
 enum class Needs : uint8_t {
@@ -41,6 +43,49 @@ struct ImageOp {
     ImageLookup lookup;
 };
 
+/// Images side by side over uv; black where there is none.
+struct UdimOp {
+    scene::Input<scene::SurfaceUv> texcoord;
+    std::array<int16_t, 100> tile{}; ///< by u + 10 v: 1 + index into `lookups`; 0: none
+    std::vector<ImageLookup> lookups;
+};
+
+/// A property of the mesh's vertices.
+struct VertexOp {
+    int slot = 0; ///< in VertexAttributes::columns
+    Vec3 fallback{0, 0, 0};
+    scene::nodes::VertexEncoding color_space{};
+    bool is_number = false;
+
+    template <class F>
+    constexpr void describe(F&&) {}
+};
+
+/// The normal of a surface raised by the program `part`.
+struct BumpOp {
+    int part = 0;
+    scene::Input<float> scale;
+    scene::Input<scene::SurfaceNormal> normal;
+};
+
+/// The program `part` seen along the three axes.
+struct TriplanarOp {
+    int part = 0;
+    scene::Input<float> scale, blend;
+    scene::nodes::Space space{};
+};
+
+/// z as 0: a vector2 that becomes a vector3.
+struct FlattenOp {
+    scene::Input<Vec3> in;
+};
+
+/// A value kept to the range that its parameter allows.
+struct LimitOp {
+    scene::Input<Vec3> in;
+    float min = 0, max = 1;
+};
+
 /// A colour as the number that is its channels' mean.
 struct MeanOp {
     scene::Input<Color> in;
@@ -58,20 +103,47 @@ struct InstructionOf<scene::ImageTexture> {
     using type = ImageOp;
 };
 
+template <>
+struct InstructionOf<scene::nodes::GeomPropValue> {
+    using type = VertexOp;
+};
+template <>
+struct InstructionOf<scene::nodes::Bump> {
+    using type = BumpOp;
+};
+template <>
+struct InstructionOf<scene::nodes::Triplanar> {
+    using type = TriplanarOp;
+};
+template <>
+struct InstructionOf<scene::nodes::Convert> {
+    using type = FlattenOp;
+};
+
 template <class Variant>
 struct Instructions;
 template <class... Node>
 struct Instructions<std::variant<Node...>> {
-    using type = std::variant<typename InstructionOf<Node>::type..., MeanOp>;
+    using type = std::variant<typename InstructionOf<Node>::type..., UdimOp, MeanOp, LimitOp>;
 };
 
 } // namespace detail
 
 using Instruction = detail::Instructions<scene::Texture>::type;
 
+/// The result of a node: a register of its program or, where `reg` is -1, a literal.
+struct Operand {
+    int32_t reg = -1;
+    Vec3 value{0, 0, 0};
+    scene::ValueType type = scene::ValueType::number;
+};
+
 struct Program {
     std::vector<Instruction> instructions; ///< each writes the register of its own index
     Needs needs = Needs::nothing;
+    Operand result;             ///< of a program for a single node
+    std::vector<Program> parts; ///< networks that bump and triplanar run at other points
+    int cost = 0;               ///< instructions run for one point, those of parts included
 };
 
 /// The results of a program: what the inputs of the struct it was compiled for read.
@@ -103,5 +175,8 @@ class Values {
 
 /// Runs the program at `point`.
 void evaluate(Program const& program, SurfacePoint const& point, Values& values);
+
+/// The result of a program for a single node.
+Vec3 evaluate(Program const& program, SurfacePoint const& point);
 
 } // namespace weft::shading

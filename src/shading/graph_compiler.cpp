@@ -42,12 +42,58 @@ struct InputNeeds {
     }
 };
 
+template <class Node, class... Others>
+constexpr bool is_one_of = (std::is_same_v<Node, Others> || ...);
+
+/// What the node asks of a point beside its inputs.
+template <class Node>
+constexpr Needs own_needs(Node const&) {
+    using namespace scene::nodes;
+    if constexpr (is_one_of<Node, Texcoord>) return Needs::uv;
+    if constexpr (is_one_of<Node, FacingRatio>) return Needs::view;
+    if constexpr (is_one_of<Node, scene::nodes::Position, scene::nodes::Normal, Tangent,
+                            InstanceRandom, NormalMap>)
+        return Needs::geometry;
+    return Needs::nothing;
+}
+
 } // namespace
 
-Program GraphCompiler::compile(scene::TextureId id, Operand& result, SourceLocation const& where) {
+Program GraphCompiler::compile(scene::TextureId id, SourceLocation const& where,
+                               scene::ValueType wanted) {
     Building building(*this, where);
-    result = operand(id);
-    return std::move(building.program);
+    Operand result = operand(id);
+    bool const to_number =
+        wanted == scene::ValueType::number && result.type == scene::ValueType::color;
+    building.program.result = to_number ? mean(result) : result;
+    return complete(building);
+}
+
+Program GraphCompiler::complete(Building& building) const {
+    Program& program = building.program;
+    program.cost += int(program.instructions.size());
+    if (program.cost > kMaxCost)
+        throw InputError(building.where,
+                         "expected a network that runs at most " + std::to_string(kMaxCost) +
+                             " nodes for one point, found " + std::to_string(program.cost) +
+                             " by bumps and projections inside of each other");
+    return std::move(program);
+}
+
+template <class T>
+int GraphCompiler::part(scene::Input<T> const& in) {
+    Program part;
+    if (in.texture) {
+        part = compile(in.texture, building_->where, schema::input_type<T>);
+    } else if constexpr (std::is_same_v<T, float>) {
+        part.result.value = Vec3(in.value);
+    } else {
+        part.result.value = in.value.v;
+    }
+    building_->program.needs |= part.needs;
+    auto& parts = building_->program.parts;
+    parts.push_back(std::move(part));
+    return int(parts.size()) - 1;
 }
 
 int32_t GraphCompiler::emit(Instruction instruction, Needs needs) {
@@ -78,13 +124,29 @@ Operand GraphCompiler::mean(Operand const& color) {
     return {it->second, Vec3(0), scene::ValueType::number};
 }
 
+Operand GraphCompiler::limit(Operand const& value, scene::TextureId from,
+                             schema::Attr const& attr) {
+    scene::Texture const& node = scene_.textures[size_t(from.index)];
+    bool const unlimited = !std::isfinite(attr.min) && !std::isfinite(attr.max);
+    if (unlimited || std::holds_alternative<scene::ImageTexture>(node) ||
+        std::holds_alternative<scene::Checkerboard>(node))
+        return value;
+    LimitOp op{{value.value}, float(attr.min), float(attr.max)};
+    if (value.reg >= 0) op.in.texture.index = value.reg;
+    return finish(op, Needs::nothing, value.reg >= 0, value.type);
+}
+
 Operand GraphCompiler::operand(scene::TextureId id) {
     auto& done = building_->done;
     if (auto const it = done.find(id.index); it != done.end()) return it->second;
     scene::Texture const& texture = scene_.textures[size_t(id.index)];
     auto const type_of = [&](scene::TextureId input) { return operand(input).type; };
     Operand const result = std::visit(
-        [&](auto const& node) { return translate(node, scene::output_type(node, type_of)); },
+        [&](auto const& node) {
+            scene::ValueType const type = scene::output_type(node, type_of);
+            current_ = id;
+            return translate(node, type);
+        },
         texture);
     done[id.index] = result;
     return result;
@@ -93,7 +155,7 @@ Operand GraphCompiler::operand(scene::TextureId id) {
 template <class Node>
 Operand GraphCompiler::translate(Node node, scene::ValueType type) {
     node.describe(Connector{*this});
-    Needs needs = Needs::nothing;
+    Needs needs = own_needs(node);
     bool connected = false;
     node.describe(InputNeeds{needs, connected});
     return finish(std::move(node), needs, connected, type);
@@ -104,13 +166,70 @@ Operand GraphCompiler::translate(scene::ConstantTexture const& node, scene::Valu
 }
 
 Operand GraphCompiler::translate(scene::ImageTexture const& node, scene::ValueType type) {
-    ImageOp op;
-    op.texcoord = node.texcoord;
-    connect(op.texcoord);
-    op.lookup = {scene_.images[size_t(node.filename.resource)], node.exposure,
-                 node.border == scene::TextureBorder::clamp, image_filter(node.filter)};
-    bool const connected = bool(op.texcoord.texture);
-    return finish(op, connected ? Needs::nothing : Needs::uv, connected, type);
+    scene::Input<scene::SurfaceUv> texcoord = node.texcoord;
+    connect(texcoord);
+    bool const connected = bool(texcoord.texture);
+    Needs const needs = connected ? Needs::nothing : Needs::uv;
+    bool const udim = node.filename.path.find("<UDIM>") != std::string::npos;
+    auto lookup = [&](int32_t image) {
+        // Tiles end at their borders: beside them is another.
+        return ImageLookup{scene_.images[size_t(image)], node.exposure,
+                           udim || node.border == scene::TextureBorder::clamp,
+                           image_filter(node.filter)};
+    };
+    if (!udim)
+        return finish(ImageOp{texcoord, lookup(node.filename.resource)}, needs, connected, type);
+    UdimOp op{texcoord, {}, {}};
+    for (scene::UdimTile const& tile : scene_.udims[size_t(node.filename.resource)]) {
+        op.lookups.push_back(lookup(tile.image));
+        op.tile[size_t(tile.number - 1001)] = int16_t(op.lookups.size());
+    }
+    return finish(std::move(op), needs, connected, type);
+}
+
+/// Most conversions are none: all registers hold three numbers.
+Operand GraphCompiler::translate(scene::nodes::Convert const& node, scene::ValueType type) {
+    using scene::ValueType;
+    Operand in{-1, node.in.value.v, scene::literal_type(node.in.value)};
+    if (node.in.texture) in = operand(node.in.texture);
+    bool const is_color = in.type == ValueType::color || in.type == ValueType::triple;
+    if (type == ValueType::number && is_color) return mean(in);
+    bool const grows = in.type == ValueType::vector2 && type != ValueType::vector2;
+    if (grows && in.reg >= 0)
+        return {emit(FlattenOp{{Vec3(0), {in.reg}}}, Needs::nothing), Vec3(0), type};
+    in.type = type;
+    return in;
+}
+
+Operand GraphCompiler::translate(scene::nodes::GeomPropValue const& node, scene::ValueType type) {
+    VertexOp op;
+    while (size_t(op.slot) < attributes_.size() &&
+           attributes_[size_t(op.slot)].first != node.geomprop)
+        ++op.slot;
+    if (size_t(op.slot) == attributes_.size()) attributes_.emplace_back(node.geomprop, current_);
+    op.color_space = node.color_space;
+    op.is_number = type == scene::ValueType::number;
+    // Another type of fallback would need conversions: a literal is what it is for.
+    op.fallback = node.fallback.v;
+    return {emit(op, Needs::geometry), Vec3(0), type};
+}
+
+Operand GraphCompiler::translate(scene::nodes::Bump const& node, scene::ValueType type) {
+    BumpOp op{0, node.scale, node.normal};
+    connect(op.scale);
+    connect(op.normal);
+    op.part = part(node.height);
+    building_->program.cost += 4 * building_->program.parts[size_t(op.part)].cost;
+    return {emit(op, Needs::geometry), Vec3(0), type};
+}
+
+Operand GraphCompiler::translate(scene::nodes::Triplanar const& node, scene::ValueType type) {
+    TriplanarOp op{0, node.scale, node.blend, node.space};
+    connect(op.scale);
+    connect(op.blend);
+    op.part = part(node.in);
+    building_->program.cost += 3 * building_->program.parts[size_t(op.part)].cost;
+    return {emit(op, Needs::geometry), Vec3(0), type};
 }
 
 } // namespace weft::shading

@@ -2,7 +2,8 @@
 //
 // For one struct with Inputs (a material) or one node: walks the network below it depth first,
 // folds what depends on no point into literals, gives every other node one instruction and
-// one register, and inserts what converts a colour to a number.
+// one register, and inserts what converts a colour to a number or keeps a calculated value in its
+// parameter's range.
 #pragma once
 
 #include <map>
@@ -19,13 +20,6 @@ struct CompileOptions {
     bool fold = true; ///< off, for tests: literals take registers, too
 };
 
-/// The result of a node: a register of its program or, where `reg` is -1, a literal.
-struct Operand {
-    int32_t reg = -1;
-    Vec3 value{0, 0, 0};
-    scene::ValueType type = scene::ValueType::number;
-};
-
 class GraphCompiler {
   public:
     explicit GraphCompiler(scene::Scene const& scene, CompileOptions const& options = {})
@@ -37,10 +31,16 @@ class GraphCompiler {
     Program compile(T& described, SourceLocation const& where) {
         Building building(*this, where);
         described.describe(Connector{*this});
-        return std::move(building.program);
+        return complete(building);
     }
-    /// The program for the node `id` alone, and where its result is.
-    Program compile(scene::TextureId id, Operand& result, SourceLocation const& where);
+    /// The program for the node `id` alone; `wanted`: number to make one of a colour.
+    Program compile(scene::TextureId id, SourceLocation const& where,
+                    scene::ValueType wanted = scene::ValueType::inputs);
+
+    /// The vertex properties that programs ask for, by slot: name, and a node that does.
+    std::vector<std::pair<std::string, scene::TextureId>> const& attributes() const {
+        return attributes_;
+    }
 
   private:
     /// The program in the making: the innermost `Building`.
@@ -65,8 +65,8 @@ class GraphCompiler {
     struct Connector {
         GraphCompiler& compiler;
         template <class T>
-        void operator()(std::string_view, scene::Input<T>& in, schema::Attr const&) const {
-            compiler.connect(in);
+        void operator()(std::string_view, scene::Input<T>& in, schema::Attr const& attr) const {
+            compiler.connect(in, attr);
         }
         template <class T>
         void operator()(std::string_view, T&, schema::Attr const&) const {}
@@ -76,8 +76,14 @@ class GraphCompiler {
         }
     };
 
+    Program complete(Building& building) const;
     template <class T>
-    void connect(scene::Input<T>& in);
+    void connect(scene::Input<T>& in, schema::Attr const& attr = {});
+    /// `value` within the parameter's range. Images and checkerboards are left as they are.
+    Operand limit(Operand const& value, scene::TextureId from, schema::Attr const& attr);
+    /// Compiles the network of an input into a part of the program, and returns its index.
+    template <class T>
+    int part(scene::Input<T> const& in);
     Operand operand(scene::TextureId id);
     Operand mean(Operand const& color);
     int32_t emit(Instruction instruction, Needs needs);
@@ -85,20 +91,29 @@ class GraphCompiler {
     Operand translate(Node node, scene::ValueType type);
     Operand translate(scene::ConstantTexture const& node, scene::ValueType type);
     Operand translate(scene::ImageTexture const& node, scene::ValueType type);
+    Operand translate(scene::nodes::Convert const& node, scene::ValueType type);
+    Operand translate(scene::nodes::GeomPropValue const& node, scene::ValueType type);
+    Operand translate(scene::nodes::Bump const& node, scene::ValueType type);
+    Operand translate(scene::nodes::Triplanar const& node, scene::ValueType type);
     /// The instruction's result, at once where it needs no point and no register.
     Operand finish(Instruction instruction, Needs needs, bool connected, scene::ValueType type);
 
     scene::Scene const& scene_;
     CompileOptions options_;
+    std::vector<std::pair<std::string, scene::TextureId>> attributes_;
+    scene::TextureId current_; ///< the node being translated
     Building* building_ = nullptr;
 };
 
 template <class T>
-void GraphCompiler::connect(scene::Input<T>& in) {
+void GraphCompiler::connect(scene::Input<T>& in, schema::Attr const& attr) {
     if (!in.texture) return;
-    Operand result = operand(in.texture);
+    scene::TextureId const from = in.texture;
+    Operand result = operand(from);
     if constexpr (std::is_same_v<T, float>)
         if (result.type == scene::ValueType::color) result = mean(result);
+    if constexpr (std::is_same_v<T, float> || std::is_same_v<T, Color>)
+        result = limit(result, from, attr);
     if constexpr (schema::SurfaceDefault<T>) {
         // Their literals have no place but a register.
         if (result.reg < 0) {

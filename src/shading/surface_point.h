@@ -1,10 +1,21 @@
 // A point on a surface, as materials see it.
 #pragma once
 
-#include "base/vec.h"
+#include "base/affine.h"
+#include "scene/mesh.h"
 #include "shading/footprint.h"
 
 namespace weft::shading {
+
+/// Properties of a mesh's vertices, by the numbers that the graph compiler gave their names.
+struct VertexAttributes {
+    struct Column {
+        float const* values = nullptr; ///< of vertex 0; null where the mesh has none
+        int components = 0;
+    };
+    scene::Mesh const* mesh = nullptr;
+    std::vector<Column> columns;
+};
 
 struct SurfacePoint {
     Vec3 p{0, 0, 0};       ///< world space
@@ -12,15 +23,22 @@ struct SurfacePoint {
     Vec3 ng{0, 0, 1};      ///< unit geometric normal of the front
     Vec3 ns{0, 0, 1};      ///< unit shading normal of the front
     Vec3 wo{0, 0, 1};      ///< unit, to where the point is seen from
-    Vec3 dpdu{0, 0, 0};    ///< along growing u, any length; 0 where there are no uvs
-                           ///< or nothing looks at it
-    Vec3 dpdv{0, 0, 0};    ///< along growing v, likewise
+    Vec3 dpdu{0, 0, 0};    ///< change of p with u; 0 where there are no uvs or nothing looks at it
+    Vec3 dpdv{0, 0, 0};    ///< change of p with v, likewise
     Vec2 uv{0, 0};
-    UvFootprint footprint;  ///< of the ray that met it; 0 where no texture asks for it
-    float t = 0;            ///< distance from the ray's origin in units of its direction
-    uint32_t object = 0;    ///< which object of the world
-    uint32_t primitive = 0; ///< which triangle of it
+    UvFootprint footprint;             ///< of the ray that met it; 0 where no texture asks for it
+    float t = 0;                       ///< distance from the ray's origin in units of its direction
+    uint32_t object = 0;               ///< which object of the world
+    uint32_t primitive = 0;            ///< which triangle of it
+    Vec2 barycentric{0, 0};            ///< of the triangle's vertices 1 and 2
+    Affine const* to_world = nullptr;  ///< from the object's space; null: the same
+    Affine const* to_object = nullptr; ///< its inverse
+    VertexAttributes const* attributes = nullptr;
 };
+
+inline Vec3 object_position(SurfacePoint const& s) {
+    return s.to_object ? s.to_object->point(s.p) : s.p;
+}
 
 /// A ray origin just off the surface, on the side that `direction` points to: far enough that the
 /// ray cannot meet the surface again by rounding (Pharr, Jakob and Humphreys 2016, 3.9.5). The

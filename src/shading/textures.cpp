@@ -5,21 +5,17 @@ namespace weft::shading {
 void Textures::prepare(GraphCompiler& compiler, scene::TextureId id, SourceLocation const& where) {
     if (!id || roots_[size_t(id.index)].prepared) return;
     Root& r = roots_[size_t(id.index)];
-    r.program = compiler.compile(id, r.result, where);
+    r.program = compiler.compile(id, where);
     r.prepared = true;
 }
 
 Vec3 Textures::at(scene::TextureId id, SurfacePoint const& point) const {
-    Root const& r = root(id);
-    if (r.result.reg < 0) return r.result.value;
-    Values values;
-    evaluate(r.program, point, values);
-    return values[size_t(r.result.reg)];
+    return evaluate(root(id).program, point);
 }
 
 Vec2i Textures::resolution(scene::TextureId id) const {
     Root const& r = root(id);
-    if (r.result.reg < 0) return {1, 1};
+    if (r.program.result.reg < 0) return {1, 1};
     Vec2i largest(0, 0);
     bool patterns = false;
     for (Instruction const& instruction : r.program.instructions) {

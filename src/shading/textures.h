@@ -36,6 +36,17 @@ class Textures {
         point.uv = uv;
         return at(input, point);
     }
+    /// As `at`, kept to what light can be: at least 0. `place`: a SurfacePoint or a uv.
+    template <class Place>
+    Color radiance(scene::Input<Color> const& input, Place const& place) const {
+        Color const c = at(input, place);
+        return {std::max(c.r, 0.f), std::max(c.g, 0.f), std::max(c.b, 0.f)};
+    }
+    /// As `at`, kept to 0 .. 1.
+    template <class Place>
+    float opacity(scene::Input<float> const& input, Place const& place) const {
+        return std::clamp(at(input, place), 0.f, 1.f);
+    }
     /// Pixels of the largest image in a prepared network as (width, height); what resolves most
     /// patterns where there is none; (1, 1) for a constant.
     Vec2i resolution(scene::TextureId id) const;
@@ -43,7 +54,6 @@ class Textures {
   private:
     struct Root {
         Program program;
-        Operand result;
         bool prepared = false;
     };
     Root const& root(scene::TextureId id) const {
@@ -56,7 +66,7 @@ class Textures {
     }
     float number_at(scene::TextureId id, SurfacePoint const& point) const {
         Color const c = color_at(id, point);
-        return root(id).result.type == scene::ValueType::color ? average(c) : c.r;
+        return root(id).program.result.type == scene::ValueType::color ? average(c) : c.r;
     }
 
     std::vector<Root> roots_; ///< by node

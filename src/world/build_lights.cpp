@@ -22,7 +22,7 @@ std::vector<float> environment_cells(shading::Textures const& textures,
     for (int y = 0; y < size.y; ++y)
         for (int x = 0; x < size.x; ++x) {
             Vec2 const uv((float(x) + 0.5f) / float(size.x), (float(y) + 0.5f) / float(size.y));
-            at(x, y) = luminance(textures.at(input, uv));
+            at(x, y) = luminance(textures.radiance(input, uv));
         }
     for (int y = 0; y < size.y; ++y)
         for (int x = 0; x < size.x; ++x) {
@@ -59,7 +59,7 @@ float WorldBuilder::mean_luminance(AreaLight const& light) const {
     for (int i = 0; i < n * n; ++i) {
         Vec2 const uv((float(i % n) + 0.5f) / n, (float(i / n) + 0.5f) / n);
         if (light.uv_alone) {
-            sum += luminance(world_.textures_.at(input, uv));
+            sum += luminance(world_.textures_.radiance(input, uv));
             continue;
         }
         // Points of the surface, as seen from some place that sees them.
@@ -73,7 +73,7 @@ float WorldBuilder::mean_luminance(AreaLight const& light) const {
         }
         auto point = world_.point_on(hit, local, Vec3(0, 0, 1));
         point.wo = point.ng;
-        sum += luminance(world_.textures_.at(input, point));
+        sum += luminance(world_.textures_.radiance(input, point));
     }
     return float(sum / (n * n));
 }

@@ -47,10 +47,11 @@ LightSample LightTable::sample_light(AreaLight const& l, Vec3 const& ref, Vec2 u
     sample.wi = s.wi;
     sample.distance = s.distance;
     if (l.uv_alone) {
-        sample.radiance = textures_->at(l.emission, s.uv) * textures_->at(l.alpha, s.uv);
+        sample.radiance = textures_->radiance(l.emission, s.uv) * textures_->opacity(l.alpha, s.uv);
     } else {
         auto const point = world_->point_near(l.object, s.primitive, s.p, -s.wi);
-        sample.radiance = textures_->at(l.emission, point) * textures_->at(l.alpha, point);
+        sample.radiance =
+            textures_->radiance(l.emission, point) * textures_->opacity(l.alpha, point);
     }
     sample.pdf = s.pdf;
     sample.object = int32_t(l.object);
@@ -66,7 +67,7 @@ LightSample LightTable::sample_light(EnvironmentLight const& l, Vec3 const&, Vec
     LightSample sample;
     sample.wi = normalize(l.to_world.vector(s.direction));
     sample.distance = kInfinity;
-    sample.radiance = textures_->at(l.texture, s.uv);
+    sample.radiance = textures_->radiance(l.texture, s.uv);
     sample.pdf = s.pdf;
     return sample;
 }

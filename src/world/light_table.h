@@ -72,7 +72,8 @@ class LightTable {
         for (int32_t i : environments_) {
             auto const& light = std::get<EnvironmentLight>(lights_[size_t(i)]);
             Vec3 const local = normalize(light.to_map.vector(d));
-            Color const radiance = textures_->at(light.texture, lights::direction_to_uv(local));
+            Color const radiance =
+                textures_->radiance(light.texture, lights::direction_to_uv(local));
             f(i, radiance, choice_.probability(ref, n, uint32_t(i)) * light.sampler.pdf(local));
         }
     }

@@ -38,6 +38,8 @@ shading::SurfacePoint World::point_on(Hit const& hit, Vec3 const& local, Vec3 co
     point.wo = wo;
     point.object = hit.object;
     point.primitive = hit.primitive;
+    point.to_world = &object.to_world;
+    point.to_object = &object.to_object;
     if (object.kind == ObjectKind::Sphere)
         sphere_point(object, normalize(local), point); // what t has lost does not matter then
     else
@@ -87,6 +89,8 @@ void World::mesh_point(Object const& object, Hit const& hit, shading::SurfacePoi
     if (data.mirrored) normal = -normal;
     if (data.smooth) point.ns = a.n * w + b.n * hit.u + c.n * hit.v;
     point.uv = data.has_uvs ? uv_at(a, b, c, hit) : Vec2(hit.u, hit.v);
+    point.barycentric = {hit.u, hit.v};
+    point.attributes = &data.attributes;
     if (object.has_tangents && data.has_uvs) {
         Vec2 const d1(b.u - a.u, b.v - a.v), d2(c.u - a.u, c.v - a.v);
         float const determinant = d1.x * d2.y - d1.y * d2.x;
@@ -121,10 +125,10 @@ void World::sphere_point(Object const& object, Vec3 const& local,
     point.ng = point.ns = normalize(object.to_object.transposed(local));
     point.uv = lights::direction_to_uv(local);
     if (object.has_tangents) {
-        point.dpdu = object.to_world.vector(Vec3(local.z, 0, -local.x));
-        // Times the sine of the angle to the pole, so that it stays finite there.
-        point.dpdv = object.to_world.vector(
-            Vec3(local.x * local.y, local.y * local.y - 1, local.z * local.y));
+        point.dpdu = object.to_world.vector(Vec3(local.z, 0, -local.x) * (2 * kPi));
+        if (float const r = std::sqrt(square(local.x) + square(local.z)); r > 0)
+            point.dpdv = object.to_world.vector(
+                Vec3(local.x * local.y / r, -r, local.z * local.y / r) * kPi);
     }
     point.p_error =
         (absolute_vector(object.to_world, Vec3(1)) + abs(object.to_world.origin)) * kRounding;
@@ -145,23 +149,23 @@ float World::opacity(Hit const& hit, Vec3 const& ng, Vec3 const& direction) cons
     Object const& o = objects_[hit.object];
     if (!o.alpha.texture) return o.alpha.value;
     bool const uv_alone = within(textures_.needs(o.alpha.texture), shading::Needs::uv);
-    if (o.kind == ObjectKind::Mesh && uv_alone) return textures_.at(o.alpha, mesh_uv(o, hit));
+    if (o.kind == ObjectKind::Mesh && uv_alone) return textures_.opacity(o.alpha, mesh_uv(o, hit));
     // A sphere's normal says where on it the hit is; that of an instance is local already.
     Vec3 const local = o.instanced ? ng : o.to_object.vector(ng);
-    if (uv_alone) return textures_.at(o.alpha, lights::direction_to_uv(local));
+    if (uv_alone) return textures_.opacity(o.alpha, lights::direction_to_uv(local));
     Vec3 const wo = -(o.instanced ? o.to_world.vector(direction) : direction);
-    return textures_.at(o.alpha, point_on(hit, local, normalize(wo)));
+    return textures_.opacity(o.alpha, point_on(hit, local, normalize(wo)));
 }
 
 Color World::emission(shading::SurfacePoint const& point, Vec3 const& wo) const {
     Object const& o = objects_[point.object];
     if (!o.emission || dot(point.ng, wo) <= 0) return Color(0);
     auto const& input = scene_->emissions[size_t(o.emission.index)].emission;
-    if (!use_footprints_) return textures_.at(input, point);
+    if (!use_footprints_) return textures_.radiance(input, point);
     // As light sampling sees it, which has no ray.
     shading::SurfacePoint sharp = point;
     sharp.footprint = {};
-    return textures_.at(input, sharp);
+    return textures_.radiance(input, sharp);
 }
 
 shading::Shading World::shade(shading::SurfacePoint const& point, Vec3 const& wo,

@@ -36,6 +36,7 @@ struct alignas(32) Vertex {
 struct TriangleData {
     std::vector<Vertex> vertices;
     std::shared_ptr<scene::Mesh const> source; ///< indices
+    shading::VertexAttributes attributes;      ///< what nodes ask for
     bool smooth = false;                       ///< has normals
     bool has_uvs = false;
     bool mirrored = false; ///< counter-clockwise is the back

@@ -1,5 +1,6 @@
 #include "world/world_builder.h"
 
+#include <algorithm>
 #include <numeric>
 
 namespace weft::world {
@@ -45,6 +46,7 @@ void WorldBuilder::build(CommitOptions const& options) {
     collect_instances();
     compile_networks();
     rank_boundaries();
+    attach_attributes();
     build_kernel_scene(options);
     build_lights();
     media::Interior space;
@@ -158,14 +160,17 @@ void WorldBuilder::compile_networks() {
     std::vector<bool> done(scene_.materials.size(), false);
     for (Object& o : world_.objects_) {
         SourceLocation const& where = scene_.instance_locations[size_t(o.source_instance)];
-        auto prepare = [&](scene::TextureId id) { world_.textures_.prepare(compiler_, id, where); };
+        o.has_tangents = bool(o.normal_map);
+        auto look = [&](shading::Needs needs) {
+            o.has_tangents |= !within(needs, shading::Needs::uv | shading::Needs::view);
+        };
+        auto prepare = [&](scene::TextureId id) {
+            world_.textures_.prepare(compiler_, id, where);
+            look(world_.textures_.needs(id));
+        };
         prepare(o.alpha.texture);
         prepare(o.normal_map);
         if (o.emission) prepare(scene_.emissions[size_t(o.emission.index)].emission.texture);
-        auto looks_at_geometry = [](shading::Needs needs) {
-            return !within(needs, shading::Needs::uv | shading::Needs::view);
-        };
-        o.has_tangents = o.normal_map || looks_at_geometry(world_.textures_.needs(o.alpha.texture));
         if (!o.material) continue;
         auto const index = size_t(o.material.index);
         prepare(shading::interior_ior(scene_.materials[index]).texture);
@@ -173,7 +178,36 @@ void WorldBuilder::compile_networks() {
             world_.materials_[index] = shading::compile(scene_.materials[index], compiler_,
                                                         scene_.material_locations[index]);
         done[index] = true;
-        o.has_tangents |= looks_at_geometry(world_.materials_[index].program.needs);
+        look(world_.materials_[index].program.needs);
+    }
+}
+
+/// The meshes' properties that programs read. One that no mesh has is a mistake.
+void WorldBuilder::attach_attributes() {
+    for (auto const& [name, node] : compiler_.attributes()) {
+        bool found = false;
+        std::vector<std::string> known;
+        for (TriangleData& data : world_.triangles_) {
+            scene::Mesh const& mesh = *data.source;
+            shading::VertexAttributes::Column column;
+            if (!mesh.colors.empty()) {
+                known.emplace_back("color");
+                if (name == "color") column = {&mesh.colors[0].r, 3};
+            }
+            for (scene::VertexAttribute const& a : mesh.attributes) {
+                known.push_back(a.name);
+                if (a.name == name) column = {a.values.data(), a.components};
+            }
+            found |= column.values != nullptr;
+            data.attributes.mesh = &mesh;
+            data.attributes.columns.push_back(column);
+        }
+        if (found) continue;
+        std::sort(known.begin(), known.end());
+        known.erase(std::unique(known.begin(), known.end()), known.end());
+        throw InputError(scene_.texture_locations[size_t(node.index)],
+                         "expected a vertex property of some mesh, found '" + name + "'" +
+                             (known.empty() ? ": no mesh has any" : suggestion(name, known)));
     }
 }
 

@@ -49,6 +49,7 @@ class WorldBuilder {
     void attach(RTCScene to, RTCGeometry geometry, uint32_t id, bool filtered);
 
     void compile_networks();
+    void attach_attributes();
     void build_lights();
     /// Radiance averaged over the surface, roughly, for judging a light's power.
     float mean_luminance(AreaLight const& light) const;

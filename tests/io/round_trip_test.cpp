@@ -28,6 +28,12 @@ struct Changer {
     void operator()(std::string_view, Vec3& v, schema::Attr const&) {
         v = {v.x + 0.1f, v.y - 7, v.z + 1e-20f}, ++count;
     }
+    void operator()(std::string_view, schema::AnyValue& v, schema::Attr const&) {
+        v = schema::AnyValue(v.v.x + 0.1f, v.v.y - 7, 3), ++count;
+    }
+    void operator()(std::string_view, schema::ColorStops& v, schema::Attr const&) {
+        v.stops = {{-1, Color(0.1f, 2, 3)}, {1e-7f, Color(5)}}, ++count;
+    }
     void operator()(std::string_view, Affined& v, schema::Attr const&) {
         v = Affined({0.1, 0, 0.5}, {0, -3, 1e-9}, {1, 1 / 3., 2}, {4, 5, 1e10}), ++count;
     }
@@ -101,9 +107,10 @@ template <class Variant, class Read>
 void round_trips(std::string const& children, Read const& read) {
     for_each_type<Variant>([&]<class T>() {
         tested.insert(std::string(T::info.category) + " " + std::string(T::info.type));
-        constexpr bool needs_file =
-            std::is_same_v<T, scene::ImageTexture> || std::is_same_v<T, scene::MeshShape>;
-        if constexpr (!needs_file && !std::is_same_v<T, scene::ConstantTexture>)
+        constexpr bool required = std::is_same_v<T, scene::ImageTexture> ||
+                                  std::is_same_v<T, scene::MeshShape> ||
+                                  std::is_same_v<T, scene::nodes::GeomPropValue>;
+        if constexpr (!required && !std::is_same_v<T, scene::ConstantTexture>)
             round_trip<T>(children,
                           [&](std::string const& text) { return std::get<T>(read(text)); });
     });
@@ -120,10 +127,12 @@ TEST(RoundTrip, EveryTypeOfEveryCategory) {
         return parse("<scene>" + kCamera + "<instance>" + t + "</instance></scene>").shapes.at(0);
     });
     round_trips<scene::Texture>("", [](std::string const& t) {
-        // The last <texture of the text gets the name that its parent expects.
+        // Any type goes into a `convert`, which is added after it.
         std::string named = t;
-        named.replace(0, 8, "<texture name='normal'");
-        return parse_in_instance(named).textures.at(0);
+        named.replace(0, 8, "<texture name='in'");
+        return parse_in_instance("<texture name='normal' type='convert' output='vector3'>" + named +
+                                 "</texture>")
+            .textures.at(0);
     });
     round_trips<std::variant<scene::PointLight, scene::DirectionalLight, scene::SpotLight,
                              scene::EnvironmentLight>>("", [](std::string const& t) {
@@ -186,6 +195,13 @@ TEST(RoundTrip, TypesWithRequiredParameters) {
     constant.value = Color(0.1f, 2, 1e-7f);
     EXPECT_EQ(std::get<scene::ConstantTexture>(texture(constant, "").textures.at(0)).value,
               constant.value);
+
+    scene::nodes::GeomPropValue property;
+    property.geomprop = "heat";
+    property.output = scene::nodes::AnyType::vector3;
+    property.fallback = schema::AnyValue(1, 2, 3);
+    EXPECT_EQ(texts(std::get<scene::nodes::GeomPropValue>(texture(property, "").textures.at(0))),
+              texts(property));
 
     scene::ImageTexture image;
     image.filename.path = std::string(WEFT_SOURCE_DIR) + "/tests/io/bad/tiny.png";
