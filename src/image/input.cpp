@@ -15,6 +15,27 @@ namespace {
 
 constexpr uint64_t kMaxFloats = uint64_t(1) << 32;
 
+/// The PNG library tells of a truncated file on stderr by itself, so its chunks are walked first:
+/// each is a big-endian length, a name, as many bytes and a check sum; the last is IEND.
+void check_png_end(std::string const& path) {
+    std::unique_ptr<std::FILE, int (*)(std::FILE*)> const file(std::fopen(path.c_str(), "rb"),
+                                                               std::fclose);
+    unsigned char head[8];
+    if (!file || std::fread(head, 1, 8, file.get()) != 8 ||
+        std::memcmp(head, "\x89PNG\r\n\x1a\n", 8) != 0)
+        return;
+    std::fseek(file.get(), 0, SEEK_END);
+    long const size = std::ftell(file.get());
+    for (long at = 8; at + 12 <= size;) {
+        std::fseek(file.get(), at, SEEK_SET);
+        if (std::fread(head, 1, 8, file.get()) != 8) break;
+        if (std::memcmp(head + 4, "IEND", 4) == 0) return;
+        at += 12 + (long(head[0]) << 24 | long(head[1]) << 16 | long(head[2]) << 8 | head[3]);
+    }
+    throw InputError({path}, "truncated: expected the last chunk of a PNG, found none in " +
+                                 std::to_string(size) + " bytes");
+}
+
 /// The JPEG library fills what a truncated file lacks with grey and calls it a warning, so the
 /// end mark is looked for here. Some cameras append a few kilobytes after it.
 void check_jpeg_end(std::string const& path) {
@@ -38,6 +59,7 @@ std::unique_ptr<OIIO::ImageInput> open_image(std::string const& path) {
         std::fclose(file);
     else
         throw InputError({path}, std::string("cannot open the image: ") + std::strerror(errno));
+    check_png_end(path);
     OIIO::ImageSpec config;
     config["oiio:UnassociatedAlpha"] = 1; // as stored
     auto input = OIIO::ImageInput::open(path, &config);

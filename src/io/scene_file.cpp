@@ -89,7 +89,7 @@ class JobReader {
         job.target = match(job.integrator, [](auto const& i) { return i.target; });
         job.sampler = builder.sampler;
         job.scene = read_scene(*builder.scene_element);
-        if (builder.image_element) job.image_name = builder.image_element->get("id");
+        if (builder.image_element) job.image_name = picture_name(*builder.image_element);
         return job;
     }
 
@@ -102,8 +102,18 @@ class JobReader {
                              "<test> expects an id: it names the reference ID_ref.exr");
         RenderJob job = read_integrator(*builder.integrator_element);
         job.test = std::get<scene::ImageTest>(test);
-        job.image_name = element.get("id");
+        job.image_name = picture_name(element);
         return job;
+    }
+
+    /// The element's id, which becomes a file beside the scene and must not lead elsewhere.
+    static std::string picture_name(XmlElement const& element) {
+        std::string id(element.get("id"));
+        if (id.find('/') != std::string::npos || id.find("..") != std::string::npos)
+            throw InputError(element.where,
+                             "expected an id that can name a file, without '/' and '..', found '" +
+                                 id + "'");
+        return id;
     }
 
     std::shared_ptr<scene::Scene const> read_scene(XmlElement const& element) {
@@ -122,7 +132,7 @@ class JobReader {
         RenderJob job;
         job.integrator = scene::PathIntegrator{};
         job.scene = read_scene(scene);
-        job.image_name = scene.get("id");
+        job.image_name = picture_name(scene);
         job.folder = scene.folder;
         job.where = scene.where;
         return job;

@@ -97,7 +97,7 @@ class SphereEmitter {
 
 /// World-space triangles, chosen by area and then sampled uniformly. Front: the side on which
 /// the vertices turn counter-clockwise, or the other with `flip` (to be set where the transform
-/// that made the positions mirrors).
+/// that made the positions mirrors), or the other of that for the triangles that are `turned`.
 ///
 /// Triangles whose share of the area is below about 1e-7 are never sampled, and have density 0.
 class MeshEmitter {
@@ -105,7 +105,7 @@ class MeshEmitter {
     using Triangle = std::array<uint32_t, 3>;
 
     MeshEmitter(std::vector<Vec3> positions, std::vector<Triangle> triangles,
-                std::vector<Vec2> uvs = {}, bool flip = false);
+                std::vector<Vec2> uvs = {}, bool flip = false, std::vector<bool> turned = {});
 
     /// uv is interpolated, or the barycentric weights of vertices 1 and 2 where there are none.
     EmitterSample sample(Vec3 const& ref, Vec2 u) const;
@@ -122,7 +122,8 @@ class MeshEmitter {
     Distribution1D by_area_;
     Vec3 centre_{0, 0, 0};
     float area_ = 0;
-    float side_; ///< +1, or -1 where flipped
+    float side_;               ///< +1, or -1 where flipped
+    std::vector<bool> turned_; ///< per triangle, or empty
 };
 
 using Emitter = std::variant<RectangleEmitter, SphereEmitter, MeshEmitter>;

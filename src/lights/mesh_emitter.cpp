@@ -6,9 +6,10 @@
 namespace weft::lights {
 
 MeshEmitter::MeshEmitter(std::vector<Vec3> positions, std::vector<Triangle> triangles,
-                         std::vector<Vec2> uvs, bool flip)
+                         std::vector<Vec2> uvs, bool flip, std::vector<bool> turned)
     : positions_(std::move(positions)), triangles_(std::move(triangles)), uvs_(std::move(uvs)),
-      side_(flip ? -1.f : 1.f) {
+      side_(flip ? -1.f : 1.f), turned_(std::move(turned)) {
+    assert(turned_.empty() || turned_.size() == triangles_.size());
     assert(uvs_.empty() || uvs_.size() == positions_.size());
     if (triangles_.empty()) return;
     std::vector<float> areas(triangles_.size());
@@ -42,7 +43,8 @@ EmitterSample MeshEmitter::sample(Vec3 const& ref, Vec2 u) const {
     Vec2 const b = square_to_triangle({choice.u, u.y});
     s.p = a + e1 * b.x + e2 * b.y;
     float const twice_area = length(c);
-    s.n = c * (side_ / twice_area);
+    bool const turned = !turned_.empty() && turned_[choice.index];
+    s.n = c * ((turned ? -side_ : side_) / twice_area);
     s.primitive = choice.index;
     s.uv = uvs_.empty() ? b : uvs_[t[0]] * (1 - b.x - b.y) + uvs_[t[1]] * b.x + uvs_[t[2]] * b.y;
     Vec3 const d = s.p - ref;

@@ -105,8 +105,7 @@ struct AovIntegrator {
         f.group(target);
         f("variable", variable,
           {.help = "normals: shading normal as (n + 1) / 2; distance; uv; bvh: the kernel does not "
-                   "count its steps, so this draws the bounding-volume depth proxy 1 on a hit and "
-                   "0 elsewhere."});
+                   "count its steps, so this draws 1 on a hit and 0 elsewhere."});
         f("scale", scale, {.min = 1e-12, .help = "Divides the value."});
     }
 };

@@ -6,6 +6,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 #include <thread>
+#include <unistd.h>
 
 #include "integrator/pixel_renderer.h"
 
@@ -119,6 +120,19 @@ film::Region region_of(world::World const& world, RenderOptions const& options) 
     return c;
 }
 
+/// Says so before the film's sums and the picture made of them ask for more than the machine has.
+void check_memory(film::Region const& region, SourceLocation const& where) {
+    double const needed = double(region.width()) * region.height() *
+                          double(sizeof(film::PixelSum) + 3 * sizeof(float));
+    double const there = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE));
+    auto const gib = [](double bytes) { return std::to_string(int64_t(bytes / (1 << 30))); };
+    if (there > 0 && needed > there)
+        throw InputError(where, "a picture of " + std::to_string(region.width()) + " x " +
+                                    std::to_string(region.height()) + " pixels takes " +
+                                    gib(needed) + " GiB, expected at most the " + gib(there) +
+                                    " GiB of this machine; --crop renders a part of it");
+}
+
 } // namespace
 
 int sample_count(scene::Sampler const& sampler) {
@@ -129,6 +143,7 @@ RenderResult render(world::World const& world, io::RenderJob const& job,
                     RenderOptions const& options) {
     RenderResult result;
     result.region = region_of(world, options);
+    check_memory(result.region, job.where);
     result.samples = uint32_t(options.spp > 0 ? options.spp : sample_count(job.sampler));
     integrator::PixelRenderer const renderer(world, job.integrator, job.sampler, options.seed,
                                              int(result.samples));

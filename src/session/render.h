@@ -57,7 +57,7 @@ struct RenderResult {
 /// Samples per pixel that a job asks for.
 int sample_count(scene::Sampler const& sampler);
 
-/// Throws InputError where the crop lies outside of the picture.
+/// Throws InputError where the crop lies outside of the picture, or memory cannot hold it.
 RenderResult render(world::World const& world, io::RenderJob const& job,
                     RenderOptions const& options);
 

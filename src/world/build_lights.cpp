@@ -38,15 +38,13 @@ std::vector<float> environment_cells(shading::Textures const& textures,
     return cells;
 }
 
-/// The triangle wound counter-clockwise about its vertex normals, which say where the front is.
-lights::MeshEmitter::Triangle front_first(TriangleData const& data,
-                                          scene::Mesh::Triangle const& t) {
+/// Whether the triangle is wound clockwise about its vertex normals, which say where the front is.
+bool is_wound_inwards(TriangleData const& data, scene::Mesh::Triangle const& t) {
     auto const& [a, b, c] = t.v;
-    if (!data.smooth) return {a, b, c};
+    if (!data.smooth) return false;
     Vertex const &va = data.vertices[a], &vb = data.vertices[b], &vc = data.vertices[c];
     Vec3 const normal = cross(vb.p - va.p, vc.p - va.p);
-    bool const agrees = (dot(normal, va.n + vb.n + vc.n) < 0) == data.mirrored;
-    return agrees ? lights::MeshEmitter::Triangle{a, b, c} : lights::MeshEmitter::Triangle{a, c, b};
+    return (dot(normal, va.n + vb.n + vc.n) < 0) != data.mirrored;
 }
 
 } // namespace
@@ -90,9 +88,13 @@ void WorldBuilder::add_area_lights(std::vector<Light>& lights, std::vector<float
             for (Vertex const& v : data.vertices)
                 positions.push_back(object.instanced ? object.to_world.point(v.p) : v.p);
             std::vector<lights::MeshEmitter::Triangle> triangles;
-            for (auto const& t : data.source->triangles) triangles.push_back(front_first(data, t));
+            std::vector<bool> turned;
+            for (auto const& t : data.source->triangles) {
+                triangles.push_back({t.v[0], t.v[1], t.v[2]});
+                turned.push_back(is_wound_inwards(data, t));
+            }
             return lights::MeshEmitter(std::move(positions), std::move(triangles), data.source->uvs,
-                                       object.to_world.determinant() < 0);
+                                       object.to_world.determinant() < 0, std::move(turned));
         };
         auto uv_alone = [&](scene::TextureId id) {
             return within(world_.textures_.needs(id), shading::Needs::uv);

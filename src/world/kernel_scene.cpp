@@ -15,6 +15,25 @@ struct FilterContext {
     uint32_t seed = 0;
     bool passable_only = false, solid = false; ///< of closest hits
     float visibility = 1;
+
+    // The last triangle asked about. Along a shared edge the kernel finds both triangles, which are
+    // one surface.
+    uint32_t last_object = UINT32_MAX, last_primitive = 0;
+    float last_t = 0;
+    bool last_passed = false;
+
+    /// Whether the hit is that of the last triangle's neighbour, at the same distance.
+    bool repeats(World const& w, uint32_t object, uint32_t primitive, float t) const {
+        constexpr float same = 1e-5f; // of the distance: far above rounding, far below a leaf's gap
+        return object == last_object && primitive != last_primitive &&
+               std::abs(t - last_t) <= same * t && w.object(object).kind == ObjectKind::Mesh;
+    }
+    void remember(uint32_t object, uint32_t primitive, float t, bool passed) {
+        last_object = object;
+        last_primitive = primitive;
+        last_t = t;
+        last_passed = passed;
+    }
 };
 
 uint32_t hit_object(RTCFilterFunctionNArguments const* args) {
@@ -36,12 +55,17 @@ float hit_opacity(RTCFilterFunctionNArguments const* args, FilterContext const& 
 /// Closest hit: a surface is there with the probability of its opacity. The decision is a hash of
 /// the surface, so it is the same however often and in which order the kernel asks.
 void filter_closest(RTCFilterFunctionNArguments const* args) {
-    auto const& context = *reinterpret_cast<FilterContext const*>(args->context);
+    auto& context = *reinterpret_cast<FilterContext*>(args->context);
     if (args->valid[0] == 0) return;
     uint32_t const object = hit_object(args), primitive = RTCHitN_primID(args->hit, 1, 0);
     Object const& o = context.world->object(object);
     if (context.passable_only && !o.is_passable()) args->valid[0] = 0;
     if (args->valid[0] == 0 || !o.has_alpha) return;
+    float const t = RTCRayN_tfar(args->ray, 1, 0);
+    if (context.repeats(*context.world, object, primitive, t)) {
+        if (context.last_passed) args->valid[0] = 0;
+        return;
+    }
     // A sphere is one primitive that the ray may meet twice.
     bool const back = RTCHitN_Ng_x(args->hit, 1, 0) * RTCRayN_dir_x(args->ray, 1, 0) +
                           RTCHitN_Ng_y(args->hit, 1, 0) * RTCRayN_dir_y(args->ray, 1, 0) +
@@ -51,7 +75,9 @@ void filter_closest(RTCFilterFunctionNArguments const* args) {
         context.solid
             ? 0
             : to_unit_float(hash_combine(hash_combine(context.seed, object), 2 * primitive + back));
-    if (u >= hit_opacity(args, context, object)) args->valid[0] = 0;
+    bool const passed = u >= hit_opacity(args, context, object);
+    if (passed) args->valid[0] = 0;
+    context.remember(object, primitive, t, passed);
 }
 
 /// Shadow: all surfaces along the ray are passed, until nothing gets through.
@@ -60,7 +86,12 @@ void filter_shadow(RTCFilterFunctionNArguments const* args) {
     if (args->valid[0] == 0) return;
     uint32_t const object = hit_object(args);
     Object const& o = context.world->object(object);
-    if (!o.is_passable()) context.visibility *= 1 - hit_opacity(args, context, object);
+    uint32_t const primitive = RTCHitN_primID(args->hit, 1, 0);
+    float const t = RTCRayN_tfar(args->ray, 1, 0);
+    if (!o.is_passable() && !context.repeats(*context.world, object, primitive, t)) {
+        context.visibility *= 1 - hit_opacity(args, context, object);
+        context.remember(object, primitive, t, context.visibility > 0);
+    }
     if (context.visibility > 0) args->valid[0] = 0;
 }
 

@@ -2,6 +2,8 @@
 // can be replayed through the kernel alone: what that takes is the limit of any renderer on it.
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -24,17 +26,24 @@ class RayRecorder {
 
   private:
     std::vector<RecordedRay>& mine() {
-        thread_local RayRecorder* owner = nullptr;
+        // By number, not by address: another recorder may come to live at the same one.
+        thread_local uint64_t owner = 0;
         thread_local std::vector<RecordedRay>* list = nullptr;
-        if (owner != this) {
+        if (owner != id_) {
             std::lock_guard lock(mutex_);
             lists_.push_back(std::make_unique<std::vector<RecordedRay>>());
             list = lists_.back().get();
-            owner = this;
+            owner = id_;
         }
         return *list;
     }
 
+    static uint64_t next_id() {
+        static std::atomic<uint64_t> last{0};
+        return ++last;
+    }
+
+    uint64_t const id_ = next_id();
     std::mutex mutex_;
     std::vector<std::unique_ptr<std::vector<RecordedRay>>> lists_;
 };

@@ -93,6 +93,9 @@ expect 2 "$weft" help thinlense
 has "did you mean 'thinlens'?" err
 expect 0 "$weft" schema --json
 python3 -c 'import json; assert len(json.load(open("out"))["types"]) > 30' || fail "the schema is not JSON"
+mkdir -p pages/camera.md # a page that cannot be written, though the last one can
+expect 2 "$weft" docs pages
+has "pages/camera.md" err
 expect 0 "$weft" info s.xml
 has "objects" out
 

@@ -238,6 +238,22 @@ TEST_F(ImageFiles, DamagedFilesAreRefused) {
               path("none.png") + ": cannot open the image: No such file or directory");
 }
 
+TEST_F(ImageFiles, ATruncatedPngIsOneMessage) {
+    // The PNG library would say something on stderr by itself.
+    write_image(path("whole.png"), noise(64, 48, 3));
+    std::string const bytes = read_bytes(path("whole.png"));
+    for (size_t kept : {size_t(8), size_t(20), size_t(60), bytes.size() / 2, bytes.size() - 13}) {
+        write_bytes(path("cut.png"), bytes.substr(0, kept));
+        ::testing::internal::CaptureStderr();
+        std::string const message = input_error(path("cut.png"));
+        EXPECT_EQ(::testing::internal::GetCapturedStderr(), "") << kept;
+        EXPECT_EQ(message, path("cut.png") +
+                               ": truncated: expected the last chunk of a PNG, found "
+                               "none in " +
+                               std::to_string(kept) + " bytes");
+    }
+}
+
 TEST_F(ImageFiles, AFailedWriteLeavesTheOldFile) {
     // A limit on the size of files stands in for a full disk. The signal that comes with it is
     // ignored, as it is where a disk is full.

@@ -143,6 +143,53 @@ TEST(Furnace, ScatteringCubeDisappears) {
         }
 }
 
+TEST(Irradiance, RightUnderASphereLight) {
+    // A ball of radius r at distance d above a plane: E = pi L (r / d)^2. Shadow rays stop just
+    // before the light, which must not make near ones miss it or lose light.
+    for (double gap : {1e-1, 1e-2, 1e-3, 1e-4})
+        for (char const* strategy : {"mis", "nee", "bsdf"}) {
+            auto const scene = make_scene(
+                R"(<camera type="perspective" width="4" height="4" fov="0.01"><transform><lookat origin="0,)" +
+                    std::to_string(gap / 2) +
+                    R"(,0" target="0,0,0" up="0,0,1"/></transform></camera>
+                <instance><shape type="rectangle"/><bsdf type="diffuse" albedo="0.5"/><transform><scale value="3"/><rotate axis="1,0,0" angle="-90"/></transform></instance>
+                <light type="area"><instance><shape type="sphere"/><emission type="lambertian" emission="1"/><transform><translate y=")" +
+                    std::to_string(1 + gap) + R"("/></transform></instance></light>)",
+                std::string("type=\"path\" depth=\"2\" strategy=\"") + strategy + "\"");
+            Color const expected(float(0.5 / ((1 + gap) * (1 + gap))));
+            expect_mean(scene, expected, 4000, 8, "gap " + std::to_string(gap) + ", " + strategy);
+        }
+}
+
+TEST(Opacity, OfTenCardsLetsOneOf1024Through) {
+    // Onto white paper under a sky: of its light, and of that back to the camera, the same part
+    // gets through ten cards of opacity one half whoever looks for it.
+    std::string cards;
+    for (int i = 0; i < 10; ++i)
+        cards +=
+            R"(<instance alpha="0.5"><shape type="rectangle"/><bsdf type="diffuse" albedo="0"/><transform><scale value="1e4"/><translate z=")" +
+            std::to_string(1 + i) + R"("/></transform></instance>)";
+    for (char const* strategy : {"mis", "nee", "bsdf"}) {
+        auto const scene = make_scene(
+            R"(<camera type="perspective" width="4" height="4" fov="1"><transform><lookat origin="0,0,0.5" target="0,0,0" up="0,1,0"/></transform></camera>)" +
+                kWhiteSky + cards +
+                R"(<instance><shape type="rectangle"/><bsdf type="diffuse" albedo="1"/></instance>)",
+            std::string("type=\"path\" depth=\"2\" strategy=\"") + strategy + "\"");
+        expect_mean(scene, Color(1 / 1024.f), 40000, 9, strategy);
+        // One shadow ray goes through all of them.
+        world::RayRecorder recorder;
+        scene.world->record_rays(&recorder);
+        EXPECT_FLOAT_EQ(scene.world->visibility({{0.1f, 0.2f, 0.5f}, {0, 0, 1}}), 1 / 1024.f);
+        integrator::PixelRenderer const renderer(*scene.world, scene.job.integrator,
+                                                 scene.job.sampler, 0);
+        renderer.sample({1, 1}, 0);
+        scene.world->record_rays(nullptr);
+        size_t shadow_rays = 0;
+        for (world::RecordedRay const& r : *recorder.lists().at(0)) shadow_rays += r.shadow;
+        EXPECT_EQ(shadow_rays, std::string(strategy) == "bsdf" ? 1u : 2u);
+    }
+}
+
 TEST(Irradiance, OfAPointLight) {
     // E = I cos / r^2, L = E albedo / pi.
     auto const scene =

@@ -47,6 +47,8 @@ std::vector<Case> cases(TemporaryFolder const& folder) {
         icosphere(1, true); // wound clockwise; only its normals say where outside is
     for (auto& t : inverted.triangles) std::swap(t.v[1], t.v[2]);
     write_ply(folder / "inverted.ply", inverted);
+    inverted.uvs.clear();
+    write_ply(folder / "inverted_bare.ply", inverted);
 
     std::string const dim =
         R"(<light type="envmap"><texture type="constant" value="0.3,0.2,0.1"/></light>)";
@@ -103,6 +105,11 @@ std::vector<Case> cases(TemporaryFolder const& folder) {
                <matrix value="1.5,0.6,0,0, 0,1.2,0,0, 0,0,-1,0, 0,0,0,1"/><rotate axis="1,0,0" angle="-90"/><translate y="2.5"/></transform></instance></light>)"},
         {"sheared and mirrored mesh light", kFloor + kBall + mesh_light("ball.ply", shear + up)},
         {"mesh light wound inwards", kFloor + kBall + mesh_light("inverted.ply", up)},
+        {"textured mesh light wound inwards, without uvs",
+         kFloor + kBall +
+             mesh_light(
+                 "inverted_bare.ply", up,
+                 R"(<texture name="alpha" type="checkerboard" color0="0" color1="1" scale="2,1"/>)")},
         {"instanced mesh lights",
          kFloor + kBall + mesh_light("ball.ply", "<scale value=\"0.6\"/>" + up) +
              mesh_light("ball.ply", shear + "<translate x=\"-2\" y=\"1.5\" z=\"-1\"/>")},

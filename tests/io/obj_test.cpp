@@ -1,6 +1,7 @@
 // OBJ in every form of its faces, polygons of every shape, and what is refused.
 #include "base/hash.h"
 #include "io/obj.h"
+#include "tests/support/bad_files.h"
 
 #include <gtest/gtest.h>
 
@@ -15,13 +16,6 @@ using namespace weft;
 namespace fs = std::filesystem;
 
 namespace {
-
-fs::path const kBad = fs::path(WEFT_SOURCE_DIR) / "tests/io/bad";
-
-std::string read_bytes(fs::path const& path) {
-    std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
 
 scene::Mesh read(std::string const& text) {
     scene::Mesh m = io::read_obj(text, "m.obj");
@@ -252,21 +246,9 @@ TEST(Polygons, AnObjFaceKeepsItsArea) {
 
 /// Every tests/io/bad/NAME.obj is refused with the message in NAME.obj.expected.
 TEST(Obj, BadFilesAreRefusedWithTheirMessages) {
-    int count = 0;
-    for (fs::directory_entry const& entry : fs::directory_iterator(kBad)) {
-        if (entry.path().extension() != ".obj") continue;
-        ++count;
-        std::string expected = read_bytes(entry.path().string() + ".expected");
-        while (!expected.empty() && expected.back() == '\n') expected.pop_back();
-        std::string const name = entry.path().filename().string();
-        std::string found = "no error";
-        try {
-            io::read_obj(read_bytes(entry.path()), name);
-        } catch (InputError const& e) {
-            found = e.what();
-        }
-        EXPECT_EQ(found, expected) << name;
-    }
+    int const count = weft::testing::expect_refusals(
+        ".obj",
+        [](std::string const& bytes, std::string const& name) { io::read_obj(bytes, name); });
     EXPECT_GE(count, 25);
 }
 

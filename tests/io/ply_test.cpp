@@ -1,6 +1,7 @@
 // PLY in every variety it is written in, and what is refused.
 #include "base/hash.h"
 #include "io/ply.h"
+#include "tests/support/bad_files.h"
 
 #include <gtest/gtest.h>
 
@@ -19,11 +20,6 @@ namespace fs = std::filesystem;
 namespace {
 
 fs::path const kBad = fs::path(WEFT_SOURCE_DIR) / "tests/io/bad";
-
-std::string read_bytes(fs::path const& path) {
-    std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
 
 std::string error_of(std::string const& bytes) {
     try {
@@ -298,21 +294,9 @@ TEST(Ply, CoordinatesUnderEveryName) {
 
 /// Every tests/io/bad/NAME.ply is refused with the message in NAME.ply.expected.
 TEST(Ply, BadFilesAreRefusedWithTheirMessages) {
-    int count = 0;
-    for (fs::directory_entry const& entry : fs::directory_iterator(kBad)) {
-        if (entry.path().extension() != ".ply") continue;
-        ++count;
-        std::string expected = read_bytes(entry.path().string() + ".expected");
-        while (!expected.empty() && expected.back() == '\n') expected.pop_back();
-        std::string const name = entry.path().filename().string();
-        std::string found = "no error";
-        try {
-            io::read_ply(read_bytes(entry.path()), name);
-        } catch (InputError const& e) {
-            found = e.what();
-        }
-        EXPECT_EQ(found, expected) << name;
-    }
+    int const count = weft::testing::expect_refusals(
+        ".ply",
+        [](std::string const& bytes, std::string const& name) { io::read_ply(bytes, name); });
     EXPECT_GE(count, 30);
 }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <unistd.h>
 
 #include "session/render.h"
 #include "tests/support/scenes.h"
@@ -96,6 +97,24 @@ TEST(Render, ACropOutsideIsAnError) {
         options.crop = crop;
         EXPECT_THROW(render_with(scene, options), InputError);
     }
+}
+
+TEST(Render, APictureThatMemoryCannotHoldIsAnError) {
+    if (double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE)) > 1.8e11)
+        GTEST_SKIP() << "this machine can hold the largest picture";
+    TestScene const scene =
+        make_scene(R"(<camera type="perspective" width="65536" height="65536"/>)");
+    try {
+        render_with(scene, {});
+        FAIL();
+    } catch (InputError const& e) {
+        EXPECT_EQ(std::string(e.what()).rfind("test:1:1: a picture of 65536 x 65536 pixels", 0), 0u)
+            << e.what();
+    }
+    RenderOptions options;
+    options.crop = film::Region{{65000, 65000}, {65010, 65010}};
+    options.spp = 1;
+    EXPECT_EQ(render_with(scene, options).image.width, 10) << "a part of it fits";
 }
 
 TEST(Render, SamplesPerPixelAddUp) {
