@@ -52,6 +52,8 @@ XmlElement const& SceneBuilder::resolve(XmlElement const& element) const {
 
 namespace {
 
+constexpr std::string_view kUdim = "<UDIM>";
+
 template <class T>
 int32_t push(std::vector<T>& to, T value) {
     to.push_back(std::move(value));
@@ -198,6 +200,23 @@ int32_t SceneBuilder::load_image(std::string const& path, scene::ColorSpace enco
     return index_of(scene_.images, image);
 }
 
+int32_t SceneBuilder::load_udim(std::string const& folder, std::string const& path,
+                                scene::ColorSpace encoding, SourceLocation const& where) {
+    size_t const at = path.find(kUdim);
+    std::vector<scene::UdimTile> tiles;
+    for (int number = 1001; number <= 1100; ++number) {
+        std::string file = path;
+        file.replace(at, kUdim.size(), std::to_string(number));
+        if (!fs::exists(fs::path(folder) / file)) continue;
+        std::string const found = existing_file(folder, file, where);
+        tiles.push_back({number, files_ == Files::read ? load_image(found, encoding, where) : -1});
+    }
+    if (tiles.empty())
+        throw InputError(where, "expected files " + in_quotes(path) +
+                                    " with <UDIM> from 1001 to 1100, found none");
+    return push(scene_.udims, std::move(tiles));
+}
+
 int32_t SceneBuilder::load_mesh(std::string const& path, SourceLocation const& where) {
     auto& mesh = document_.meshes[path];
     if (!mesh) {
@@ -211,10 +230,14 @@ int32_t SceneBuilder::load_mesh(std::string const& path, SourceLocation const& w
 
 void SceneBuilder::complete(scene::ImageTexture& texture, XmlElement const& element) {
     SourceLocation const& where = location_of(element, "filename");
+    auto const encoding = texture.linear ? scene::ColorSpace::lin_rec709 : texture.color_space;
+    if (texture.filename.path.find(kUdim) != std::string::npos) {
+        texture.filename.resource =
+            load_udim(element.folder, texture.filename.path, encoding, where);
+        return;
+    }
     std::string const path = existing_file(element.folder, texture.filename.path, where);
-    if (files_ == Files::read)
-        texture.filename.resource = load_image(
-            path, texture.linear ? scene::ColorSpace::lin_rec709 : texture.color_space, where);
+    if (files_ == Files::read) texture.filename.resource = load_image(path, encoding, where);
 }
 
 void SceneBuilder::complete(scene::Instance& instance, XmlElement const& element) {

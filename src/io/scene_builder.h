@@ -104,6 +104,9 @@ class SceneBuilder {
     Summary summary(scene::Instance const& instance) const;
     int32_t load_image(std::string const& path, scene::ColorSpace encoding,
                        SourceLocation const& where);
+    /// The set of files that `path`, which holds <UDIM>, stands for.
+    int32_t load_udim(std::string const& folder, std::string const& path,
+                      scene::ColorSpace encoding, SourceLocation const& where);
     int32_t load_mesh(std::string const& path, SourceLocation const& where);
 
     Document& document_;

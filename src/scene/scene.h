@@ -40,6 +40,12 @@ struct SceneContents {
     }
 };
 
+/// One file of a set whose name holds <UDIM>: tile 1001 + u + 10 v covers [u, u + 1) x [v, v + 1).
+struct UdimTile {
+    int number = 1001;
+    int32_t image = -1; ///< index into the scene's images
+};
+
 struct Scene {
     SceneContents contents;
     std::vector<Camera> cameras;
@@ -55,6 +61,8 @@ struct Scene {
     /// What files hold; shared, since several scenes of one document may use them.
     std::vector<std::shared_ptr<Mesh const>> meshes;
     std::vector<std::shared_ptr<image::Image const>> images;
+    /// What file names with <UDIM> stand for: their `resource` is an index into this.
+    std::vector<std::vector<UdimTile>> udims;
 
     /// Where things were written, for messages.
     std::vector<SourceLocation> instance_locations;

@@ -62,7 +62,8 @@ struct ImageTexture {
     constexpr void describe(F&& f) {
         f("filename", filename,
           {.required = true,
-           .help = "PNG, JPEG, EXR, HDR, TIFF, ...; relative to the scene file."});
+           .help = "PNG, JPEG, EXR, HDR, TIFF, ...; relative to the scene file. <UDIM> in the name "
+                   "stands for the numbers of tiles, 1001 + u + 10 v."});
         f("exposure", exposure, {.min = 0, .help = "A factor on all values."});
         f("border", border,
           {.help = "What lies outside of [0, 1]: the image again, or its border pixels."});

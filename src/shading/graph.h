@@ -43,6 +43,13 @@ struct ImageOp {
     ImageLookup lookup;
 };
 
+/// Images side by side over uv; black where there is none.
+struct UdimOp {
+    scene::Input<scene::SurfaceUv> texcoord;
+    std::array<int16_t, 100> tile{}; ///< by u + 10 v: 1 + index into `lookups`; 0: none
+    std::vector<ImageLookup> lookups;
+};
+
 /// A property of the mesh's vertices.
 struct VertexOp {
     int slot = 0; ///< in VertexAttributes::columns
@@ -117,7 +124,7 @@ template <class Variant>
 struct Instructions;
 template <class... Node>
 struct Instructions<std::variant<Node...>> {
-    using type = std::variant<typename InstructionOf<Node>::type..., MeanOp, LimitOp>;
+    using type = std::variant<typename InstructionOf<Node>::type..., UdimOp, MeanOp, LimitOp>;
 };
 
 } // namespace detail

@@ -154,14 +154,25 @@ Operand GraphCompiler::translate(scene::ConstantTexture const& node, scene::Valu
 }
 
 Operand GraphCompiler::translate(scene::ImageTexture const& node, scene::ValueType type) {
-    ImageOp op;
-    op.texcoord = node.texcoord;
-    connect(op.texcoord);
-    op.lookup = {scene_.images[size_t(node.filename.resource)], node.exposure,
-                 node.border == scene::TextureBorder::clamp,
-                 node.filter == scene::TextureFilter::nearest};
-    bool const connected = bool(op.texcoord.texture);
-    return finish(op, connected ? Needs::nothing : Needs::uv, connected, type);
+    scene::Input<scene::SurfaceUv> texcoord = node.texcoord;
+    connect(texcoord);
+    bool const connected = bool(texcoord.texture);
+    Needs const needs = connected ? Needs::nothing : Needs::uv;
+    bool const udim = node.filename.path.find("<UDIM>") != std::string::npos;
+    auto lookup = [&](int32_t image) {
+        // Tiles end at their borders: beside them is another.
+        return ImageLookup{scene_.images[size_t(image)], node.exposure,
+                           udim || node.border == scene::TextureBorder::clamp,
+                           node.filter == scene::TextureFilter::nearest};
+    };
+    if (!udim)
+        return finish(ImageOp{texcoord, lookup(node.filename.resource)}, needs, connected, type);
+    UdimOp op{texcoord, {}, {}};
+    for (scene::UdimTile const& tile : scene_.udims[size_t(node.filename.resource)]) {
+        op.lookups.push_back(lookup(tile.image));
+        op.tile[size_t(tile.number - 1001)] = int16_t(op.lookups.size());
+    }
+    return finish(std::move(op), needs, connected, type);
 }
 
 /// Most conversions are none: all registers hold three numbers.

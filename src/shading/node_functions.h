@@ -23,6 +23,14 @@ inline Vec3 run(ImageOp const& n, NodeContext const& at) {
     return to_vector(n.lookup.at(at(n.texcoord)));
 }
 
+inline Vec3 run(UdimOp const& n, NodeContext const& at) {
+    Vec2 const uv = at(n.texcoord);
+    float const u = std::floor(uv.x), v = std::floor(uv.y);
+    if (!(u >= 0 && u < 10 && v >= 0 && v < 10)) return Vec3(0);
+    int const tile = n.tile[size_t(u) + 10 * size_t(v)];
+    return tile > 0 ? to_vector(n.lookups[size_t(tile) - 1].at(uv - Vec2(u, v))) : Vec3(0);
+}
+
 inline Vec3 run(scene::Checkerboard const& n, NodeContext const& at) {
     Vec2 const uv = at(n.texcoord), scale = at(n.scale);
     float const cell = std::floor(uv.x * scale.x) + std::floor(uv.y * scale.y);

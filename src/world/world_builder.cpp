@@ -157,6 +157,7 @@ void WorldBuilder::compile_networks() {
     std::vector<bool> done(scene_.materials.size(), false);
     for (Object& o : world_.objects_) {
         SourceLocation const& where = scene_.instance_locations[size_t(o.source_instance)];
+        o.has_tangents = bool(o.normal_map);
         auto look = [&](shading::Needs needs) {
             o.has_tangents |= !within(needs, shading::Needs::uv | shading::Needs::view);
         };

@@ -139,6 +139,30 @@ TEST(Graph, ImagesFeedNumbersWithTheirMean) {
     EXPECT_EQ(program.needs, shading::Needs::uv);
 }
 
+TEST(Graph, UdimTilesLieSideBySide) {
+    Network net;
+    for (float value : {0.25f, 0.75f}) {
+        image::Image image;
+        image.width = image.height = 1, image.channels = 1;
+        image.pixels = {value};
+        net.scene.images.push_back(std::make_shared<image::Image const>(image));
+    }
+    net.scene.udims = {{{1001, 0}, {1012, 1}}};
+    scene::ImageTexture node;
+    node.filename = {"skin.<UDIM>.png", 0};
+    auto const program = net.compile(net.add(node));
+    auto at = [&](float u, float v) {
+        shading::SurfacePoint point;
+        point.uv = {u, v};
+        return shading::evaluate(program, point).x;
+    };
+    EXPECT_EQ(at(0.5f, 0.999f), 0.25f);
+    EXPECT_EQ(at(1.5f, 1.001f), 0.75f);
+    EXPECT_EQ(at(1.5f, 0.5f), 0) << "no such tile";
+    EXPECT_EQ(at(-0.5f, 0.5f), 0);
+    EXPECT_EQ(at(10.5f, 0.5f), 0);
+}
+
 TEST(Graph, TooLargeIsALocatedError) {
     Network net;
     auto id = net.add(nodes::Noise3d{});
