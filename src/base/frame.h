@@ -35,6 +35,13 @@ struct Frame {
         t = cross(n, s);
     }
 
+    /// Turned around n, from s towards t, by an angle in radians.
+    Frame turned(float angle) const {
+        float const c = std::cos(angle), sine = std::sin(angle);
+        return {s * c + t * sine, t * c - s * sine, n};
+    }
+    friend constexpr bool operator==(Frame const&, Frame const&) = default;
+
     Vec3 to_local(Vec3 const& v) const { return {dot(v, s), dot(v, t), dot(v, n)}; }
     Vec3 to_world(Vec3 const& v) const { return s * v.x + t * v.y + n * v.z; }
 };

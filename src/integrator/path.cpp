@@ -67,6 +67,7 @@ void scatter_in_medium(world::World const& world, PathSettings const& settings, 
     point.wo = -path.ray.direction;
     point.g = world.medium(path.media.current().medium).g;
     path.signature.append(film::Bounce::Volume);
+    path.scattered = true;
     direct(world, settings.strategy, path, point, u, vertex, sink);
     path.p = point.p;
     path.n = Vec3(0);
@@ -130,7 +131,8 @@ void trace_path(world::World const& world, PathSettings const& settings, world::
                 continue;
             }
             Vec3 const wo = -path.ray.direction;
-            shading::Shading const shading = world.shade(point, wo, path.media);
+            shading::Shading const shading =
+                world.shade(point, wo, path.media, path.scattered && !settings.full_materials);
             add_emission(world, settings, path, point, shading.emission, sink);
             if (vertex == settings.depth) return;
 
@@ -142,7 +144,9 @@ void trace_path(world::World const& world, PathSettings const& settings, world::
             if (!(s.pdf > 0)) return;
             path.throughput *= s.weight;
             path.eta_scale *= s.eta_scale;
-            path.pdf = any(s.flags, lobes::LobeFlags::Delta) ? 0 : s.pdf;
+            bool const delta = any(s.flags, lobes::LobeFlags::Delta);
+            path.pdf = delta ? 0 : s.pdf;
+            path.scattered |= !delta;
             path.p = point.p;
             path.n = here.n;
             path.signature.append(bounce_kind(s.flags));

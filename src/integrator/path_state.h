@@ -13,6 +13,7 @@ struct PathState {
     Color throughput{1};
     media::MediumStack media;
     film::PathSignature signature;
+    bool scattered = false; ///< by something else than mirrors and clear glass
 
     // The last scattering, for weighing what the ray finds against what light sampling finds.
     float pdf = 0;       ///< of the ray's direction; 0: delta or camera, which nothing else finds

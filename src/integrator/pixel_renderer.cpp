@@ -11,21 +11,21 @@ constexpr uint32_t kUnlimited = 1u << 30;
 uint32_t depth_limit(int depth) { return depth < 0 ? kUnlimited : uint32_t(depth); }
 
 PathSettings path_settings(scene::Integrator const& integrator) {
-    return std::visit(
-        Overloaded{
-            [](scene::PathIntegrator const& i) {
-                return PathSettings{i.strategy, depth_limit(i.depth), uint32_t(i.roulette_depth)};
-            },
-            []<class Type>(scene::NamedPathIntegrator<Type> const& i) {
-                return PathSettings{Type::strategy, depth_limit(i.depth),
-                                    PathSettings().roulette_depth};
-            },
-            [](scene::DirectIntegrator const&) {
-                return PathSettings{scene::Strategy::nee, 2, 2};
-            },
-            [](auto const&) { return PathSettings(); },
-        },
-        integrator);
+    return std::visit(Overloaded{
+                          [](scene::PathIntegrator const& i) {
+                              return PathSettings{i.strategy, depth_limit(i.depth),
+                                                  uint32_t(i.roulette_depth), 1, i.full_materials};
+                          },
+                          []<class Type>(scene::NamedPathIntegrator<Type> const& i) {
+                              return PathSettings{Type::strategy, depth_limit(i.depth),
+                                                  PathSettings().roulette_depth};
+                          },
+                          [](scene::DirectIntegrator const&) {
+                              return PathSettings{scene::Strategy::nee, 2, 2};
+                          },
+                          [](auto const&) { return PathSettings(); },
+                      },
+                      integrator);
 }
 
 film::Filter make_filter(scene::RenderTarget const& target) {

@@ -123,6 +123,9 @@ int32_t SceneBuilder::add(scene::MaterialKind, XmlElement const& e) {
     scene_.material_locations.push_back(e.where);
     return push(scene_.materials, std::move(material));
 }
+int32_t SceneBuilder::add(scene::LayerKind, XmlElement const& e) {
+    return push(scene_.layers, read_struct<scene::Layer>(e));
+}
 int32_t SceneBuilder::add(scene::ShapeKind, XmlElement const& e) {
     return push(scene_.shapes, read_variant<scene::Shape>(e));
 }
@@ -235,6 +238,43 @@ void SceneBuilder::complete(scene::ImageTexture& texture, XmlElement const& elem
         texture.filename.resource = load_image(path, encoding, mip_levels, where);
 }
 
+void SceneBuilder::check_part(scene::MaterialId part, XmlElement const& element) const {
+    auto const& material = scene_.materials[size_t(part.index)];
+    if (!std::holds_alternative<scene::Hair>(material) &&
+        !std::holds_alternative<scene::VolumeBoundary>(material))
+        return;
+    throw InputError(
+        element.where,
+        element_title(element) + " expects a surface to be made of, found <bsdf type=\"" +
+            std::string(match(material, [](auto const& m) { return m.info.type; })) + "\">");
+}
+
+void SceneBuilder::complete(scene::Layer& layer, XmlElement const& element) {
+    check_part(layer.bsdf, element);
+}
+void SceneBuilder::complete(scene::Coat& material, XmlElement const& element) {
+    check_part(material.bsdf, element);
+}
+void SceneBuilder::complete(scene::Layered& material, XmlElement const& element) {
+    if (material.layers.empty())
+        throw InputError(element.where,
+                         element_title(element) + " expects a child tag <layer>, found none");
+}
+void SceneBuilder::complete(scene::Mix& material, XmlElement const& element) {
+    if (material.bsdfs.size() != 2)
+        throw InputError(element.where, element_title(element) +
+                                            " expects two child tags <bsdf>, found " +
+                                            std::to_string(material.bsdfs.size()));
+    for (scene::MaterialId part : material.bsdfs) check_part(part, element);
+}
+void SceneBuilder::complete(scene::Secondary& material, XmlElement const& element) {
+    if (material.bsdfs.size() != 2)
+        throw InputError(element.where, element_title(element) +
+                                            " expects two child tags <bsdf>, found " +
+                                            std::to_string(material.bsdfs.size()));
+    for (scene::MaterialId part : material.bsdfs) check_part(part, element);
+}
+
 void SceneBuilder::complete(scene::Instance& instance, XmlElement const& element) {
     if (!instance.normal) return;
     auto const type = texture_type(instance.normal);
@@ -284,7 +324,10 @@ void SceneBuilder::complete(scene::AreaLight& light, XmlElement const& element) 
 }
 
 SceneBuilder::Summary SceneBuilder::summary(scene::Instance const& instance) const {
-    Summary total{1, bool(instance.emission)};
+    auto const* disney =
+        instance.bsdf ? std::get_if<scene::Disney>(&scene_.materials[size_t(instance.bsdf.index)])
+                      : nullptr;
+    Summary total{1, instance.emission || (disney && scene::emits(*disney))};
     auto const* group = std::get_if<scene::Group>(&scene_.shapes[size_t(instance.shape.index)]);
     if (!group) return total;
     total.objects = 0;

@@ -67,6 +67,7 @@ class SceneBuilder {
     int32_t add(schema::TextureKind, XmlElement const& element);
     int32_t add(scene::CameraKind, XmlElement const& element);
     int32_t add(scene::MaterialKind, XmlElement const& element);
+    int32_t add(scene::LayerKind, XmlElement const& element);
     int32_t add(scene::EmissionKind, XmlElement const& element);
     int32_t add(scene::VolumeKind, XmlElement const& element);
     int32_t add(scene::MediumKind, XmlElement const& element);
@@ -85,6 +86,11 @@ class SceneBuilder {
     void complete(scene::Instance& instance, XmlElement const& element);
     void complete(scene::nodes::Convert& node, XmlElement const& element);
     void complete(scene::ImageTexture& texture, XmlElement const& element);
+    void complete(scene::Layer& layer, XmlElement const& element);
+    void complete(scene::Layered& material, XmlElement const& element);
+    void complete(scene::Coat& material, XmlElement const& element);
+    void complete(scene::Mix& material, XmlElement const& element);
+    void complete(scene::Secondary& material, XmlElement const& element);
     void complete(scene::ThinLens& camera, XmlElement const& element);
     void complete(scene::MeshShape& mesh, XmlElement const& element);
     void complete(scene::DirectionalLight& light, XmlElement const& element);
@@ -92,6 +98,8 @@ class SceneBuilder {
     void complete(scene::AreaLight& light, XmlElement const& element);
     void complete(scene::SceneContents& contents, XmlElement const& element);
 
+    /// Throws where a part of a material is what only whole materials can be.
+    void check_part(scene::MaterialId part, XmlElement const& element) const;
     /// Throws where inputs of a node that takes any type do not go together.
     template <class Node>
     void check_input_types(Node& node, XmlElement const& element) const;

@@ -253,6 +253,7 @@ std::vector<schema::Schema> all_schemas() {
     all.push_back(schema::schema_of<scene::Instance>());
     add_schemas<scene::Shape>(all);
     add_schemas<scene::Material>(all);
+    all.push_back(schema::schema_of<scene::Layer>());
     all.push_back(schema::schema_of<scene::LambertianEmission>());
     add_schemas<scene::Texture>(all);
     add_schemas<scene::Light>(all);

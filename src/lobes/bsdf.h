@@ -83,7 +83,12 @@ class Bsdf {
     /// Lobes added from here on lie around `frame`, whose n is on wo's side. Beyond
     /// `frame_capacity` frames it is the last one that does.
     void use_frame(Frame const& frame) {
-        if (frame_count_ < frame_capacity) frames_[frame_count_++] = frame;
+        for (current_frame_ = 0; current_frame_ < frame_count_; ++current_frame_)
+            if (frames_[current_frame_] == frame) return;
+        if (frame_count_ < frame_capacity)
+            frames_[frame_count_++] = frame;
+        else
+            --current_frame_;
     }
 
     /// Appends an alternative of LobeVariant, or a LobeVariant; weights are >= 0. A black weight
@@ -93,7 +98,7 @@ class Bsdf {
         if (is_black(weight)) return true;
         if (count_ == capacity) return false;
         Lobe const& lobe = *std::construct_at(
-            &lobes_[count_++], Lobe{weight, 1, uint8_t(frame_count_ - 1), LobeVariant(kind)});
+            &lobes_[count_++], Lobe{weight, 1, uint8_t(current_frame_), LobeVariant(kind)});
         LobeFlags const flags = match(lobe.kind, [](auto const& l) { return l.flags(); });
         flags_ |= flags;
         if (!any(flags, LobeFlags::Delta)) smooth_flags_ |= flags;
@@ -217,13 +222,14 @@ class Bsdf {
         geometric_normal_ = o.geometric_normal_;
         std::copy_n(o.frames_, o.frame_count_, frames_);
         frame_count_ = o.frame_count_;
+        current_frame_ = o.current_frame_;
         std::uninitialized_copy_n(o.lobes_, o.count_, lobes_);
         count_ = o.count_;
         flags_ = o.flags_;
         smooth_flags_ = o.smooth_flags_;
     }
 
-    int count_ = 0, frame_count_ = 1;
+    int count_ = 0, frame_count_ = 1, current_frame_ = 0;
     LobeFlags flags_{}, smooth_flags_{};
     Vec3 geometric_normal_; ///< on wo's side
     union {

@@ -132,4 +132,9 @@ struct Disney {
     }
 };
 
+/// Whether it may emit light.
+inline bool emits(Disney const& material) {
+    return material.emission_strength.texture || material.emission_strength.value > 0;
+}
+
 } // namespace weft::scene

@@ -20,6 +20,9 @@ struct CameraKind {
 struct MaterialKind {
     static constexpr char const* category = "bsdf";
 };
+struct LayerKind {
+    static constexpr char const* category = "layer";
+};
 struct EmissionKind {
     static constexpr char const* category = "emission";
 };
@@ -57,6 +60,7 @@ struct IntegratorKind {
 using TextureId = schema::Id<schema::TextureKind>;
 using CameraId = schema::Id<CameraKind>;
 using MaterialId = schema::Id<MaterialKind>;
+using LayerId = schema::Id<LayerKind>;
 using EmissionId = schema::Id<EmissionKind>;
 using VolumeId = schema::Id<VolumeKind>;
 using MediumId = schema::Id<MediumKind>;

@@ -5,7 +5,10 @@
 #include <string_view>
 #include <variant>
 
+#include "scene/disney.h"
 #include "scene/handles.h"
+#include "scene/layered_materials.h"
+#include "scene/scattering_materials.h"
 #include "schema/describe.h"
 
 namespace weft::scene {
@@ -14,12 +17,19 @@ struct Diffuse {
     static constexpr schema::TypeInfo info{
         .category = "bsdf",
         .type = "diffuse",
-        .help = "Lambert's ideal matte surface, the same from both sides."};
+        .help =
+            "A matte surface, the same from both sides: Lambert's ideal one, or rough like clay "
+            "and plaster (Portsmouth et al. 2024)."};
     Input<Color> albedo{Color(0.8f)};
+    Input<float> roughness{0};
 
     template <class F>
     constexpr void describe(F&& f) {
         f("albedo", albedo, {.min = 0, .max = 1, .help = "Fraction of light that is reflected."});
+        f("roughness", roughness,
+          {.min = 0,
+           .max = 1,
+           .help = "0 is Lambert's; 1 is dusty: flat like the full moon, as bright at its edge."});
     }
 };
 
@@ -165,7 +175,8 @@ struct VolumeBoundary {
 };
 
 using Material = std::variant<Diffuse, Conductor, RoughConductor, Dielectric, RoughDielectric,
-                              Principled, VolumeBoundary>;
+                              Principled, Disney, Microfacet, Translucent, Transparent, Hair,
+                              Layered, Coat, Mix, Secondary, VolumeBoundary>;
 
 struct LambertianEmission {
     static constexpr schema::TypeInfo info{

@@ -173,6 +173,7 @@ struct PathIntegrator {
     int depth = 16;
     Strategy strategy = Strategy::mis;
     int roulette_depth = 3;
+    bool full_materials = false;
 
     template <class F>
     constexpr void describe(F&& f) {
@@ -185,6 +186,9 @@ struct PathIntegrator {
           {.min = 1,
            .max = 100000,
            .help = "Vertices of a path that Russian roulette leaves alone."});
+        f("fullMaterials", full_materials,
+          {.help = "Materials are themselves also where they name a simpler one for `secondary` "
+                   "rays; `weft compare` of both pictures tells what that costs in truth."});
     }
 };
 

@@ -51,6 +51,7 @@ struct Scene {
     std::vector<Camera> cameras;
     std::vector<Texture> textures;
     std::vector<Material> materials;
+    std::vector<Layer> layers;
     std::vector<LambertianEmission> emissions;
     std::vector<ConstantVolume> volumes;
     std::vector<HomogeneousMedium> media;

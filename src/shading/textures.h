@@ -9,6 +9,20 @@
 
 namespace weft::shading {
 
+/// The light a surface emits: the product of what an `emission` or a material says.
+struct Emission {
+    scene::Input<Color> color{Color(0)};
+    scene::Input<float> strength{1};
+    explicit operator bool() const { return color != scene::Input<Color>{Color(0)}; }
+};
+
+/// How much of a surface is there: the product of what its instance and its material say.
+struct Opacity {
+    scene::Input<float> instance{1};
+    scene::Input<float> material{1};
+    friend bool operator==(Opacity const&, Opacity const&) = default;
+};
+
 class Textures {
   public:
     Textures() = default;
@@ -19,6 +33,12 @@ class Textures {
 
     /// What the prepared network of `id` asks of a point.
     Needs needs(scene::TextureId id) const { return id ? root(id).program.needs : Needs::nothing; }
+    Needs needs(Emission const& e) const {
+        return needs(e.color.texture) | needs(e.strength.texture);
+    }
+    Needs needs(Opacity const& o) const {
+        return needs(o.instance.texture) | needs(o.material.texture);
+    }
     /// The value of a prepared network at `point`.
     Vec3 at(scene::TextureId id, SurfacePoint const& point) const;
     Color at(scene::Input<Color> const& input, SurfacePoint const& point) const {
@@ -42,10 +62,15 @@ class Textures {
         Color const c = at(input, place);
         return {std::max(c.r, 0.f), std::max(c.g, 0.f), std::max(c.b, 0.f)};
     }
-    /// As `at`, kept to 0 .. 1.
     template <class Place>
-    float opacity(scene::Input<float> const& input, Place const& place) const {
-        return std::clamp(at(input, place), 0.f, 1.f);
+    Color radiance(Emission const& e, Place const& place) const {
+        return radiance(e.color, place) * std::max(at(e.strength, place), 0.f);
+    }
+    /// In 0 .. 1.
+    template <class Place>
+    float opacity(Opacity const& o, Place const& place) const {
+        return std::clamp(at(o.instance, place), 0.f, 1.f) *
+               std::clamp(at(o.material, place), 0.f, 1.f);
     }
     /// Pixels of the largest image in a prepared network as (width, height); what resolves most
     /// patterns where there is none; (1, 1) for a constant.

@@ -50,8 +50,9 @@ bool is_wound_inwards(TriangleData const& data, scene::Mesh::Triangle const& t) 
 } // namespace
 
 float WorldBuilder::mean_luminance(AreaLight const& light) const {
-    scene::Input<Color> const& input = light.emission;
-    if (!input.texture) return luminance(input.value);
+    shading::Emission const& input = light.emission;
+    if (!input.color.texture && !input.strength.texture)
+        return luminance(input.color.value * input.strength.value);
     constexpr int n = 32;
     double sum = 0;
     for (int i = 0; i < n * n; ++i) {
@@ -79,7 +80,6 @@ float WorldBuilder::mean_luminance(AreaLight const& light) const {
 void WorldBuilder::add_area_lights(std::vector<Light>& lights, std::vector<float>& weights) {
     for (auto const& [index, weight] : area_objects_) {
         Object& object = world_.objects_[index];
-        auto const& emission = scene_.emissions[size_t(object.emission.index)];
         auto make = [&]() -> lights::Emitter {
             if (object.kind == ObjectKind::Sphere) return lights::SphereEmitter(object.to_world);
             TriangleData const& data = world_.triangles_[size_t(object.triangles)];
@@ -96,13 +96,10 @@ void WorldBuilder::add_area_lights(std::vector<Light>& lights, std::vector<float
             return lights::MeshEmitter(std::move(positions), std::move(triangles), data.source->uvs,
                                        object.to_world.determinant() < 0, std::move(turned));
         };
-        auto uv_alone = [&](scene::TextureId id) {
-            return within(world_.textures_.needs(id), shading::Needs::uv);
-        };
-        AreaLight light{
-            make(),       emission.emission,
-            object.alpha, 0,
-            index,        uv_alone(emission.emission.texture) && uv_alone(object.alpha.texture)};
+        bool const uv_alone =
+            within(world_.textures_.needs(object.emission) | world_.textures_.needs(object.opacity),
+                   shading::Needs::uv);
+        AreaLight light{make(), object.emission, object.opacity, 0, index, uv_alone};
         float const area = match(light.emitter, [](auto const& e) { return e.area(); });
         light.extent = std::sqrt(area);
         object.light = int32_t(lights.size());

@@ -47,11 +47,12 @@ LightSample LightTable::sample_light(AreaLight const& l, Vec3 const& ref, Vec2 u
     sample.wi = s.wi;
     sample.distance = s.distance;
     if (l.uv_alone) {
-        sample.radiance = textures_->radiance(l.emission, s.uv) * textures_->opacity(l.alpha, s.uv);
+        sample.radiance =
+            textures_->radiance(l.emission, s.uv) * textures_->opacity(l.opacity, s.uv);
     } else {
         auto const point = world_->point_near(l.object, s.primitive, s.p, -s.wi);
         sample.radiance =
-            textures_->radiance(l.emission, point) * textures_->opacity(l.alpha, point);
+            textures_->radiance(l.emission, point) * textures_->opacity(l.opacity, point);
     }
     sample.pdf = s.pdf;
     sample.object = int32_t(l.object);

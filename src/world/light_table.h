@@ -10,7 +10,6 @@
 #include "lights/environment.h"
 #include "lights/light_choice.h"
 #include "scene/scene.h"
-#include "shading/shading.h"
 #include "shading/textures.h"
 
 namespace weft::world {
@@ -21,11 +20,11 @@ class World;
 /// front alone.
 struct AreaLight {
     lights::Emitter emitter;
-    scene::Input<Color> emission;
-    scene::Input<float> alpha{1}; ///< rays that look for it miss it where it is not there
-    float extent = 0;             ///< about its size: the root of its area
-    uint32_t object = 0;          ///< of the world
-    bool uv_alone = true;         ///< emission and alpha depend on uv alone
+    shading::Emission emission;
+    shading::Opacity opacity; ///< rays that look for it miss it where it is not there
+    float extent = 0;         ///< about its size: the root of its area
+    uint32_t object = 0;      ///< of the world
+    bool uv_alone = true;     ///< emission and alpha depend on uv alone
 };
 
 struct EnvironmentLight {

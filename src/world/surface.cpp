@@ -147,48 +147,43 @@ void World::apply_normal_map(Object const& object, shading::SurfacePoint& point)
 
 float World::opacity(Hit const& hit, Vec3 const& ng, Vec3 const& direction) const {
     Object const& o = objects_[hit.object];
-    if (!o.alpha.texture) return o.alpha.value;
-    bool const uv_alone = within(textures_.needs(o.alpha.texture), shading::Needs::uv);
-    if (o.kind == ObjectKind::Mesh && uv_alone) return textures_.opacity(o.alpha, mesh_uv(o, hit));
+    bool const uv_alone = within(textures_.needs(o.opacity), shading::Needs::uv);
+    if (o.kind == ObjectKind::Mesh && uv_alone)
+        return textures_.opacity(o.opacity, mesh_uv(o, hit));
     // A sphere's normal says where on it the hit is; that of an instance is local already.
     Vec3 const local = o.instanced ? ng : o.to_object.vector(ng);
-    if (uv_alone) return textures_.opacity(o.alpha, lights::direction_to_uv(local));
+    if (uv_alone) return textures_.opacity(o.opacity, lights::direction_to_uv(local));
     Vec3 const wo = -(o.instanced ? o.to_world.vector(direction) : direction);
-    return textures_.opacity(o.alpha, point_on(hit, local, normalize(wo)));
+    return textures_.opacity(o.opacity, point_on(hit, local, normalize(wo)));
 }
 
 Color World::emission(shading::SurfacePoint const& point, Vec3 const& wo) const {
     Object const& o = objects_[point.object];
     if (!o.emission || dot(point.ng, wo) <= 0) return Color(0);
-    auto const& input = scene_->emissions[size_t(o.emission.index)].emission;
-    if (!use_footprints_) return textures_.radiance(input, point);
+    if (!use_footprints_) return textures_.radiance(o.emission, point);
     // As light sampling sees it, which has no ray.
     shading::SurfacePoint sharp = point;
     sharp.footprint = {};
-    return textures_.radiance(input, sharp);
+    return textures_.radiance(o.emission, sharp);
 }
 
 shading::Shading World::shade(shading::SurfacePoint const& point, Vec3 const& wo,
-                              media::MediumStack const& stack) const {
+                              media::MediumStack const& stack, bool secondary) const {
     Object const& o = objects_[point.object];
     bool const entering = dot(point.ng, wo) > 0;
-    Vec3 const ng = entering ? point.ng : -point.ng;
-    shading::Shading shading(lobes::Bsdf(shading::shading_frame(point, wo, ng), ng));
+    shading::View const view{wo, entering ? point.ng : -point.ng, entering,
+                             o.has_interior ? stack.current_without(point.object).ior : 1,
+                             secondary};
+    shading::Shading shading(lobes::Bsdf(shading::shading_frame(point, point.ns, view), view.ng));
     shading.emission = emission(point, wo);
-    if (o.material) {
-        shading::Boundary const boundary{entering, stack.current_without(point.object).ior};
-        shading.ior = shading::add_lobes(materials_[size_t(o.material.index)], point, wo, boundary,
-                                         shading.bsdf);
-    }
+    if (o.material) materials_.shade(o.material, point, view, shading);
     return shading;
 }
 
 media::Interior World::interior(shading::SurfacePoint const& point) const {
     Object const& o = objects_[point.object];
     float const ior =
-        o.material ? textures_.at(
-                         shading::interior_ior(scene_->materials[size_t(o.material.index)]), point)
-                   : 1;
+        o.material ? textures_.at(shading::interior_ior(*scene_, o.material), point) : 1;
     return {point.object, o.rank, ior, o.medium};
 }
 

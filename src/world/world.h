@@ -14,7 +14,7 @@
 #include "media/medium.h"
 #include "media/medium_stack.h"
 #include "scene/scene.h"
-#include "shading/shading.h"
+#include "shading/materials.h"
 #include "shading/textures.h"
 #include "world/camera_rays.h"
 #include "world/embree.h"
@@ -51,9 +51,9 @@ struct Object {
     bool has_tangents = false; ///< something looks at the direction of growing u
     int32_t triangles = -1;    ///< index of the TriangleData
     scene::MaterialId material;
-    scene::EmissionId emission;
+    shading::Emission emission;
     scene::TextureId normal_map;
-    scene::Input<float> alpha{1};
+    shading::Opacity opacity;
     int32_t light = -1;   ///< index of the light that samples it; -1 none
     int32_t medium = -1;  ///< what fills it
     int32_t priority = 0; ///< as the user gave it
@@ -102,9 +102,9 @@ class World {
     float visibility(Ray const& ray) const;
 
     shading::SurfacePoint surface(Ray const& ray, Hit const& hit) const;
-    /// Emission and lobes at `point` towards unit `wo`.
+    /// Emission and lobes at `point` towards unit `wo`; `secondary`: after a bounce that scatters.
     shading::Shading shade(shading::SurfacePoint const& point, Vec3 const& wo,
-                           media::MediumStack const& stack) const;
+                           media::MediumStack const& stack, bool secondary = false) const;
     /// The point of an object that is nearest to `p` on it: of the triangle `primitive`, where it
     /// is a mesh. Seen from unit `wo`.
     shading::SurfacePoint point_near(uint32_t object, uint32_t primitive, Vec3 const& p,
@@ -159,7 +159,7 @@ class World {
     std::vector<TriangleData> triangles_;
     std::vector<media::Medium> media_;
     shading::Textures textures_;
-    std::vector<shading::CompiledMaterial> materials_; ///< as the scene's
+    shading::Materials materials_;
     LightTable lights_;
     CameraRays camera_;
     media::MediumStack outside_;

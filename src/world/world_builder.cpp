@@ -116,18 +116,24 @@ void WorldBuilder::add_instance(int32_t index, Inherited const& outer) {
 void WorldBuilder::add_object(scene::Shape const& shape, int32_t instance, Inherited const& given) {
     Object object;
     object.material = given.material;
-    object.emission = given.emission;
+    if (given.emission)
+        object.emission.color = scene_.emissions[size_t(given.emission.index)].emission;
     object.normal_map = given.normal_map;
-    object.alpha = given.alpha;
-    object.has_alpha = given.alpha != scene::Input<float>{1};
+    object.opacity.instance = given.alpha;
     object.priority = given.priority;
     object.source_instance = instance;
     object.medium = medium_of(given);
     if (given.material) {
         auto const& material = scene_.materials[size_t(given.material.index)];
         object.is_null = shading::is_null_boundary(material);
-        object.has_interior = shading::is_transmissive(material);
+        object.has_interior = shading::is_transmissive(scene_, given.material);
+        if (auto const* disney = std::get_if<scene::Disney>(&material)) {
+            object.opacity.material = disney->opacity;
+            if (!given.emission && scene::emits(*disney))
+                object.emission = {disney->emission_color, disney->emission_strength};
+        }
     }
+    object.has_alpha = object.opacity != shading::Opacity{};
     // A medium without a surface material is bounded by nothing, and nothing does not shine.
     if (!given.material && !given.emission && object.medium >= 0)
         object.is_null = object.has_interior = true;
@@ -156,8 +162,7 @@ void WorldBuilder::add_object(scene::Shape const& shape, int32_t instance, Inher
 /// Programs for all that objects show: what nothing uses is not compiled.
 void WorldBuilder::compile_networks() {
     world_.textures_ = shading::Textures(scene_.textures.size());
-    world_.materials_.resize(scene_.materials.size());
-    std::vector<bool> done(scene_.materials.size(), false);
+    world_.materials_ = shading::Materials(scene_);
     for (Object& o : world_.objects_) {
         SourceLocation const& where = scene_.instance_locations[size_t(o.source_instance)];
         o.has_tangents = bool(o.normal_map);
@@ -168,17 +173,16 @@ void WorldBuilder::compile_networks() {
             world_.textures_.prepare(compiler_, id, where);
             look(world_.textures_.needs(id));
         };
-        prepare(o.alpha.texture);
+        prepare(o.opacity.instance.texture);
+        prepare(o.opacity.material.texture);
         prepare(o.normal_map);
-        if (o.emission) prepare(scene_.emissions[size_t(o.emission.index)].emission.texture);
+        prepare(o.emission.color.texture);
+        prepare(o.emission.strength.texture);
         if (!o.material) continue;
-        auto const index = size_t(o.material.index);
-        prepare(shading::interior_ior(scene_.materials[index]).texture);
-        if (!done[index])
-            world_.materials_[index] = shading::compile(scene_.materials[index], compiler_,
-                                                        scene_.material_locations[index]);
-        done[index] = true;
-        look(world_.materials_[index].program.needs);
+        prepare(shading::interior_ior(scene_, o.material).texture);
+        world_.materials_.compile(scene_, o.material, compiler_);
+        look(world_.materials_.needs(o.material));
+        o.has_tangents |= world_.materials_.uses_tangents(o.material);
     }
 }
 

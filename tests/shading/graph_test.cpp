@@ -1,5 +1,5 @@
 // The compiler: folding, sharing, conversions, limits; and the nodes that run parts of their own.
-#include "shading/shading.h"
+#include "shading/materials.h"
 
 #include "tests/shading/networks.h"
 

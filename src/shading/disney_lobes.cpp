@@ -1,0 +1,145 @@
+// The principled material as lobes, from the outside in: sheen, clear coat, then metal, glass and
+// a matte base under a dielectric interface side by side. Each layer leaves 1 - albedo(wo) to
+// those below (Kulla and Conty 2017), so that none adds light; a coat tints by the way that light
+// seen along wo takes through it.
+#include "lobes/conductor_presets.h"
+#include "shading/lobe_builder.h"
+
+namespace weft::shading {
+
+namespace {
+
+/// Roughness below which glass is clear, and sampled as such.
+constexpr float kSmooth = 0.01f;
+
+/// The index whose normal reflectance is `f0` < 1.
+float ior_of_f0(float f0) {
+    float const root = std::sqrt(std::clamp(f0, 0.f, 0.99f));
+    return (1 + root) / (1 - root);
+}
+
+struct DisneyBuilder {
+    LobeBuilder b; ///< its weight shrinks from layer to layer
+    scene::Disney const& m;
+    Values const& at;
+    Color base, specular_tint;
+    float roughness, ior;
+    lobes::Ggx facets;
+    Frame around;
+    lobes::ThinFilm film;
+
+    DisneyBuilder(LobeBuilder const& builder, scene::Disney const& material, Values const& values)
+        : b(builder), m(material), at(values), base(unit(at(m.base_color))),
+          specular_tint(unit(at(m.specular_tint))), roughness(unit(at(m.roughness))),
+          ior(at(m.ior)), around(b.frame_around(at(m.normal))) {
+        float const anisotropic = at(m.anisotropic);
+        auto const [x, y] = stretched_alphas(roughness, anisotropic);
+        facets = {x, y};
+        if (anisotropic > 0) around = around.turned(2 * kPi * at(m.anisotropic_rotation));
+        film = {at(m.thin_film_thickness), at(m.thin_film_ior),
+                b.view.entering ? b.view.ior_outside : ior};
+    }
+
+    void layer_over(Color const& reflected) { b.weight *= rest_of(reflected); }
+
+    void add_sheen() {
+        float const sheen = unit(at(m.sheen));
+        if (sheen == 0) return;
+        lobes::Sheen const lobe{unit(at(m.sheen_roughness))};
+        Color const color = sheen * unit(at(m.sheen_tint));
+        b.add(color, lobe);
+        layer_over(color * b.albedo(lobe, around));
+    }
+
+    void add_clearcoat() {
+        float const clearcoat = unit(at(m.clearcoat));
+        if (clearcoat == 0) return;
+        Vec3 const normal = at(m.clearcoat_normal);
+        Frame const coat = b.frame_around(normal == Vec3(0) ? at(m.normal) : normal);
+        b.to.bsdf.use_frame(coat);
+        float const coat_ior = std::clamp(at(m.clearcoat_ior), 1.f, 3.f);
+        lobes::Clearcoat const lobe(std::min(alpha_of(at(m.clearcoat_roughness)), 0.5f), coat_ior);
+        b.add(Color(clearcoat), lobe);
+        layer_over(clearcoat * b.albedo(lobe, coat));
+        Color const tint = unit(at(m.clearcoat_tint));
+        if (tint == Color(1)) return;
+        float const cos_o = dot(coat.n, b.view.wo);
+        float const cos_t = safe_sqrt(1 - (1 - cos_o * cos_o) / square(coat_ior));
+        auto through = [&](float t) { return std::pow(t, 1 / std::max(cos_t, 1e-3f)); };
+        b.weight *= lerp(Color(1), {through(tint.r), through(tint.g), through(tint.b)}, clearcoat);
+    }
+
+    void add_metal(float share) {
+        lobes::Fresnel fresnel = lobes::schlick_f82(base, specular_tint);
+        if (film) {
+            lobes::Conductor const c = lobes::artist_conductor(base, specular_tint);
+            fresnel = lobes::ThinFilmFresnel{film, c.eta, c.k};
+        }
+        b.add(Color(share), lobes::GgxReflection{facets, fresnel, true});
+    }
+
+    void add_glass(float share) {
+        b.to.ior = ior;
+        float const eta = b.relative_ior(ior), below = at(m.transmission_roughness);
+        lobes::BoundaryOptions const options{0, film};
+        if (eta == 1 || (roughness < kSmooth && below < kSmooth)) {
+            b.add(Color(share), lobes::SpecularDielectric{eta, specular_tint, base, options});
+        } else if (below < 0 || below == roughness) {
+            b.add(Color(share),
+                  lobes::GgxDielectric(facets, eta, specular_tint, base, options, true));
+        } else { // two microsurfaces: one is seen, the other is seen through
+            float const alpha = alpha_of(below);
+            b.add(Color(share),
+                  lobes::GgxDielectric(facets, eta, specular_tint, Color(0), options, true));
+            b.add(Color(share),
+                  lobes::GgxDielectric({alpha, alpha}, eta, Color(0), base, options, true));
+        }
+    }
+
+    /// Plastic, wood, skin: a dielectric interface over what scatters below.
+    void add_dielectric(float share) {
+        float const f0 = lobes::fresnel_f0(ior) * 2 * unit(at(m.specular));
+        Color reflected(0);
+        if (f0 > 0) {
+            lobes::Fresnel fresnel = lobes::DielectricFresnel{ior_of_f0(f0)};
+            if (film)
+                fresnel = lobes::ThinFilmFresnel{film, Color(ior_of_f0(f0)), Color(0)};
+            else if (specular_tint !=
+                     Color(1)) // what is weaker than any stone fades at the edge, too
+                fresnel = lobes::SchlickFresnel{f0 * specular_tint, Color(std::min(50 * f0, 1.f))};
+            lobes::GgxReflection const lobe{facets, fresnel, true};
+            b.add(Color(share), lobe);
+            reflected = b.albedo(lobe, around);
+        }
+        b.add(share * rest_of(reflected) * base, lobes::BurleyDiffuse{roughness});
+    }
+
+    void build() {
+        if (around != b.frame) b.to.bsdf.use_frame(around);
+        add_sheen();
+        add_clearcoat();
+        b.to.bsdf.use_frame(around);
+        float const metallic = unit(at(m.metallic)), transmission = unit(at(m.transmission));
+        float const glass = (1 - metallic) * transmission;
+        float const matte = (1 - metallic) * (1 - transmission);
+        if (metallic > 0) add_metal(metallic);
+        if (glass > 0) add_glass(glass);
+        if (matte > 0) add_dielectric(matte);
+    }
+};
+
+} // namespace
+
+void LobeBuilder::operator()(scene::Disney const& m, Values const& at) const {
+    LobeBuilder inner = *this;
+    if (part) { // a whole material's are looked after by the world
+        float const opacity = unit(at(m.opacity));
+        if (opacity < 1) add(Color(1 - opacity), lobes::Transparent{});
+        inner.weight *= opacity;
+        if (view.entering && scene::emits(m))
+            to.emission += inner.weight * at(m.emission_color) * at(m.emission_strength);
+    }
+    DisneyBuilder(inner, m, at).build();
+}
+
+} // namespace weft::shading

@@ -1,0 +1,66 @@
+// Materials made of materials.
+#include "shading/lobe_builder.h"
+
+namespace weft::shading {
+
+void LobeBuilder::build(scene::MaterialId id) const {
+    CompiledMaterial const& material = materials[id];
+    Values values;
+    evaluate(material.program, point, values);
+    to.bsdf.use_frame(frame);
+    LobeBuilder inner = *this;
+    inner.layers = &material.layers;
+    match(material.parameters, [&](auto const& m) { inner(m, values); });
+}
+
+void LobeBuilder::build_part(scene::MaterialId id, Color const& w, Frame const& f) const {
+    if (is_black(w)) return;
+    LobeBuilder inner = *this;
+    inner.weight *= w;
+    inner.frame = f;
+    inner.part = true;
+    inner.build(id);
+}
+
+void LobeBuilder::operator()(scene::Layered const& m, Values const& at) const {
+    float uncovered = 1;
+    for (scene::Layer const& layer : *layers) {
+        bool const last = &layer == &layers->back();
+        if (!last && m.secondary == scene::SecondaryRays::base && view.secondary) continue;
+        float const opacity = unit(at(layer.opacity));
+        build_part(layer.bsdf, Color(uncovered * opacity), frame_around(at(layer.normal)));
+        uncovered *= 1 - opacity;
+    }
+}
+
+void LobeBuilder::operator()(scene::Coat const& m, Values const& at) const {
+    float const w = unit(at(m.weight));
+    if (w == 0 || (m.secondary == scene::SecondaryRays::base && view.secondary)) {
+        build_part(m.bsdf, Color(1), frame);
+        return;
+    }
+    Frame const around = frame_around(at(m.normal));
+    to.bsdf.use_frame(around);
+    float const ior = at(m.ior), alpha = alpha_of(at(m.roughness));
+    lobes::GgxReflection const lobe{{alpha, alpha}, lobes::DielectricFresnel{ior}, true};
+    add(Color(w), lobe);
+    float const cos_o = dot(around.n, view.wo);
+    float const cos_t = safe_sqrt(1 - (1 - cos_o * cos_o) / square(ior));
+    float const way = at(m.thickness) / std::max(cos_t, 1e-3f);
+    Color const tint = unit(at(m.tint));
+    Color const through(std::pow(tint.r, way), std::pow(tint.g, way), std::pow(tint.b, way));
+    build_part(m.bsdf, rest_of(w * albedo(lobe, around)) * lerp(Color(1), through, w), frame);
+}
+
+void LobeBuilder::operator()(scene::Mix const& m, Values const& at) const {
+    bool const first_alone = m.secondary == scene::SecondaryRays::base && view.secondary;
+    float const amount = first_alone ? 0 : unit(at(m.amount));
+    build_part(m.bsdfs[0], Color(1 - amount), frame);
+    build_part(m.bsdfs[1], Color(amount), frame);
+}
+
+void LobeBuilder::operator()(scene::Secondary const& m, Values const&) const {
+    build_part(m.bsdfs[view.secondary ? 1 : 0], Color(1), frame);
+}
+
+} // namespace weft::shading

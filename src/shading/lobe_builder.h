@@ -1,0 +1,82 @@
+// Turns the values of one material at one point into weighted lobes. An overload per material; the
+// sources group them: material_lobes.cpp has single kinds of scattering, disney_lobes.cpp the
+// principled material, layered_lobes.cpp what is made of other materials.
+#pragma once
+
+#include "shading/materials.h"
+
+namespace weft::shading {
+
+struct LobeBuilder {
+    Materials const& materials;
+    SurfacePoint const& point;
+    View const& view;
+    Shading& to;
+    Frame frame;       ///< of the surface or layer
+    Color weight{1};   ///< what layers above leave of the light
+    bool part = false; ///< of another material: opacity and emission are its own affair
+    std::vector<scene::Layer> const* layers = nullptr; ///< of a `layered` one
+
+    void build(scene::MaterialId id) const;
+    /// The same for a part that gets the share `w` of the light, around `f`.
+    void build_part(scene::MaterialId id, Color const& w, Frame const& f) const;
+
+    void operator()(scene::Diffuse const& m, Values const& at) const;
+    void operator()(scene::Conductor const& m, Values const& at) const;
+    void operator()(scene::RoughConductor const& m, Values const& at) const;
+    void operator()(scene::Dielectric const& m, Values const& at) const;
+    void operator()(scene::RoughDielectric const& m, Values const& at) const;
+    void operator()(scene::Principled const& m, Values const& at) const;
+    void operator()(scene::Microfacet const& m, Values const& at) const;
+    void operator()(scene::Translucent const& m, Values const& at) const;
+    void operator()(scene::Transparent const& m, Values const& at) const;
+    void operator()(scene::Hair const& m, Values const& at) const;
+    void operator()(scene::Disney const& m, Values const& at) const;
+    void operator()(scene::Layered const& m, Values const& at) const;
+    void operator()(scene::Coat const& m, Values const& at) const;
+    void operator()(scene::Mix const& m, Values const& at) const;
+    void operator()(scene::Secondary const& m, Values const& at) const;
+    void operator()(scene::VolumeBoundary const&, Values const&) const {}
+
+    template <class L>
+    void add(Color const& w, L const& lobe) const {
+        to.bsdf.add(weight * w, lobe);
+    }
+    /// How much light from everywhere a lobe around `f` sends towards wo.
+    template <class L>
+    Color albedo(L const& lobe, Frame const& f) const {
+        return lobe.albedo(f.to_local(view.wo));
+    }
+    /// Around the world-space normal of a `normal` input; (0, 0, 0), nothing connected, is `frame`.
+    Frame frame_around(Vec3 const& normal) const {
+        return normal == Vec3(0) ? frame : shading_frame(point, normalize(normal), view);
+    }
+    /// Far index over near index.
+    float relative_ior(float ior) const {
+        return view.entering ? ior / view.ior_outside : view.ior_outside / ior;
+    }
+};
+
+/// From the roughness that users set to the microfacet distribution's width.
+inline float alpha_of(float roughness) {
+    return std::max(square(std::clamp(roughness, 0.f, 1.f)), 1e-3f);
+}
+
+/// Widths along and across a brushed surface's tangent (Burley 2012, 5.4); both in [1e-3, 1].
+struct Alphas {
+    float x, y;
+};
+inline Alphas stretched_alphas(float roughness, float anisotropic) {
+    float const alpha = alpha_of(roughness);
+    float const aspect = std::sqrt(1 - 0.9f * std::clamp(anisotropic, 0.f, 1.f));
+    return {std::min(alpha / aspect, 1.f), std::max(alpha * aspect, 1e-3f)};
+}
+
+inline Color unit(Color const& c) {
+    return {std::clamp(c.r, 0.f, 1.f), std::clamp(c.g, 0.f, 1.f), std::clamp(c.b, 0.f, 1.f)};
+}
+inline float unit(float x) { return std::clamp(x, 0.f, 1.f); }
+/// 1 - c, at least 0.
+inline Color rest_of(Color const& c) { return unit(Color(1) - c); }
+
+} // namespace weft::shading

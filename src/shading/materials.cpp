@@ -1,0 +1,168 @@
+#include "shading/materials.h"
+
+#include "shading/lobe_builder.h"
+
+namespace weft::shading {
+
+namespace {
+
+/// The layers of a `layered` material as one struct, so that one program serves all.
+struct LayerInputs {
+    std::vector<scene::Layer>& layers;
+    template <class F>
+    void describe(F&& f) {
+        for (scene::Layer& layer : layers) layer.describe(f);
+    }
+};
+
+/// Whether an input may differ from `value`.
+template <class T>
+bool may_differ(scene::Input<T> const& in, T const& value) {
+    return in.texture || in.value != value;
+}
+
+/// The materials that `m` is made of, none for most.
+std::vector<scene::MaterialId> parts_of(scene::Material const& m,
+                                        std::vector<scene::Layer> const& layers) {
+    if (auto const* coat = std::get_if<scene::Coat>(&m)) return {coat->bsdf};
+    if (auto const* mix = std::get_if<scene::Mix>(&m)) return mix->bsdfs;
+    if (auto const* secondary = std::get_if<scene::Secondary>(&m)) return secondary->bsdfs;
+    std::vector<scene::MaterialId> parts;
+    for (scene::Layer const& layer : layers) parts.push_back(layer.bsdf);
+    return parts;
+}
+
+std::vector<scene::MaterialId> parts_of(scene::Scene const& scene, scene::MaterialId id) {
+    auto const& material = scene.materials[size_t(id.index)];
+    std::vector<scene::Layer> layers;
+    if (auto const* layered = std::get_if<scene::Layered>(&material))
+        for (scene::LayerId layer : layered->layers)
+            layers.push_back(scene.layers[size_t(layer.index)]);
+    return parts_of(material, layers);
+}
+
+/// The most lobes that the material itself adds.
+struct MostLobes {
+    int operator()(scene::Disney const& m) const {
+        bool const two_surfaces = may_differ(m.transmission_roughness, -1.f);
+        int const glass = may_differ(m.transmission, 0.f) ? (two_surfaces ? 2 : 1) : 0;
+        return may_differ(m.sheen, 0.f) + may_differ(m.clearcoat, 0.f) +
+               may_differ(m.metallic, 0.f) + glass + 2 + may_differ(m.opacity, 1.f);
+    }
+    int operator()(scene::Principled const&) const { return 2; }
+    int operator()(scene::Translucent const&) const { return 2; }
+    int operator()(scene::Layered const&) const { return 0; }
+    int operator()(scene::Mix const&) const { return 0; }
+    int operator()(scene::Secondary const&) const { return 0; }
+    template <class M>
+    int operator()(M const&) const {
+        return 1;
+    }
+};
+
+struct UsesTangents {
+    bool operator()(scene::Disney const& m) const { return may_differ(m.anisotropic, 0.f); }
+    bool operator()(scene::Microfacet const& m) const { return may_differ(m.anisotropic, 0.f); }
+    bool operator()(scene::Hair const&) const { return true; }
+    template <class M>
+    bool operator()(M const&) const {
+        return false;
+    }
+};
+
+} // namespace
+
+Frame shading_frame(SurfacePoint const& point, Vec3 const& normal, View const& view) {
+    Vec3 n = dot(normal, view.ng) < 0 ? -normal : normal;
+    constexpr float least_cosine = 1e-3f;
+    if (float const cosine = dot(n, view.wo); cosine < least_cosine)
+        n = normalize(n + view.wo * (least_cosine - cosine));
+    return point.dpdu == Vec3(0) ? Frame(n) : Frame(n, point.dpdu);
+}
+
+template <class F>
+void Materials::for_each_part(scene::MaterialId id, F const& f) const {
+    CompiledMaterial const& m = (*this)[id];
+    for (scene::MaterialId part : parts_of(m.parameters, m.layers)) f(part);
+}
+
+void Materials::compile(scene::Scene const& scene, scene::MaterialId id, GraphCompiler& compiler) {
+    CompiledMaterial& material = compiled_[size_t(id.index)];
+    if (material.done) return;
+    SourceLocation const& where = scene.material_locations[size_t(id.index)];
+    material.parameters = scene.materials[size_t(id.index)];
+    if (auto const* layered = std::get_if<scene::Layered>(&material.parameters)) {
+        for (scene::LayerId layer : layered->layers)
+            material.layers.push_back(scene.layers[size_t(layer.index)]);
+        LayerInputs inputs{material.layers};
+        material.program = compiler.compile(inputs, where);
+    } else {
+        std::visit([&](auto& m) { material.program = compiler.compile(m, where); },
+                   material.parameters);
+    }
+    material.done = true;
+    for (scene::MaterialId part : parts_of(material.parameters, material.layers))
+        compile(scene, part, compiler);
+    if (int const most = most_lobes(id); most > lobes::Bsdf::capacity)
+        throw InputError(where, "expected materials of at most " +
+                                    std::to_string(lobes::Bsdf::capacity) + " lobes, found " +
+                                    std::to_string(most) + " in the parts of this one");
+}
+
+int Materials::most_lobes(scene::MaterialId id) const {
+    int most = match((*this)[id].parameters, MostLobes{});
+    int larger = 0;
+    bool const either = std::holds_alternative<scene::Secondary>((*this)[id].parameters);
+    for_each_part(id, [&](scene::MaterialId part) {
+        most += either ? 0 : most_lobes(part);
+        larger = std::max(larger, most_lobes(part));
+    });
+    return either ? larger : most;
+}
+
+Needs Materials::needs(scene::MaterialId id) const {
+    Needs needs = (*this)[id].program.needs;
+    for_each_part(id, [&](scene::MaterialId part) { needs |= this->needs(part); });
+    return needs;
+}
+
+bool Materials::uses_tangents(scene::MaterialId id) const {
+    bool uses = match((*this)[id].parameters, UsesTangents{});
+    for_each_part(id, [&](scene::MaterialId part) { uses |= uses_tangents(part); });
+    return uses;
+}
+
+void Materials::shade(scene::MaterialId id, SurfacePoint const& point, View const& view,
+                      Shading& to) const {
+    LobeBuilder{*this, point, view, to, to.bsdf.frame()}.build(id);
+    to.bsdf.prepare(view.wo);
+}
+
+scene::Input<float> interior_ior(scene::Scene const& scene, scene::MaterialId id) {
+    auto const& material = scene.materials[size_t(id.index)];
+    if (auto const* d = std::get_if<scene::Dielectric>(&material)) return d->ior;
+    if (auto const* d = std::get_if<scene::RoughDielectric>(&material)) return d->ior;
+    if (auto const* m = std::get_if<scene::Microfacet>(&material))
+        return m->metal == scene::Metal::none ? m->ior : scene::Input<float>{1};
+    if (auto const* d = std::get_if<scene::Disney>(&material))
+        return may_differ(d->transmission, 0.f) ? d->ior : scene::Input<float>{1};
+    for (scene::MaterialId part : parts_of(scene, id))
+        if (is_transmissive(scene, part)) return interior_ior(scene, part);
+    return {1};
+}
+
+bool is_transmissive(scene::Scene const& scene, scene::MaterialId id) {
+    auto const& material = scene.materials[size_t(id.index)];
+    if (auto const* m = std::get_if<scene::Microfacet>(&material))
+        return m->metal == scene::Metal::none && may_differ(m->transmittance, Color(0));
+    if (auto const* d = std::get_if<scene::Disney>(&material))
+        return may_differ(d->transmission, 0.f);
+    if (std::holds_alternative<scene::Dielectric>(material) ||
+        std::holds_alternative<scene::RoughDielectric>(material) || is_null_boundary(material))
+        return true;
+    for (scene::MaterialId part : parts_of(scene, id))
+        if (is_transmissive(scene, part)) return true;
+    return false;
+}
+
+} // namespace weft::shading

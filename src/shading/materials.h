@@ -1,0 +1,84 @@
+// What a material says at a point: from parameters and node networks to a list of lobes.
+//
+// Every material has one program for its own inputs. Materials made of others (layers, coats,
+// mixtures) add the lobes of their parts with the weight that is left for each, so whatever an
+// artist stacks ends up as one flat list.
+#pragma once
+
+#include "lobes/bsdf.h"
+#include "scene/scene.h"
+#include "shading/graph_compiler.h"
+#include "shading/surface_point.h"
+
+namespace weft::shading {
+
+/// How a point is looked at.
+struct View {
+    Vec3 wo{0, 0, 1};       ///< unit
+    Vec3 ng{0, 0, 1};       ///< unit geometric normal on wo's side
+    bool entering = true;   ///< wo is on the front side, so that transmission goes in
+    float ior_outside = 1;  ///< of what surrounds the object here
+    bool secondary = false; ///< after a bounce that scatters: `secondary` materials apply
+};
+
+struct Shading {
+    lobes::Bsdf bsdf;
+    Color emission; ///< towards wo
+    float ior = 1;  ///< of the object's inside; 1 where light does not go in
+    explicit Shading(lobes::Bsdf const& b) : bsdf(b) {}
+};
+
+/// The frame in which lobes work: around the shading normal `n` (of the front) on wo's side, bent
+/// just enough to be visible from wo where interpolation turned it away (so that silhouettes are
+/// not black); s along the point's dpdu, where that is known.
+Frame shading_frame(SurfacePoint const& point, Vec3 const& n, View const& view);
+
+/// A material whose inputs read the registers of its program.
+struct CompiledMaterial {
+    scene::Material parameters;
+    std::vector<scene::Layer> layers; ///< of a `layered` one
+    Program program;
+    bool done = false;
+};
+
+class Materials {
+  public:
+    Materials() = default;
+    explicit Materials(scene::Scene const& scene) : compiled_(scene.materials.size()) {}
+
+    /// Compiles a material and all that it is made of, unless that is done. Throws InputError for
+    /// a network of nodes that is too large, or more lobes than a Bsdf holds.
+    void compile(scene::Scene const& scene, scene::MaterialId id, GraphCompiler& compiler);
+
+    /// What the programs of a compiled material ask of a point.
+    Needs needs(scene::MaterialId id) const;
+    /// Whether it looks at the direction in which u grows.
+    bool uses_tangents(scene::MaterialId id) const;
+    /// Adds emission and lobes at `point`, prepares the lobes, and sets the index inside.
+    void shade(scene::MaterialId id, SurfacePoint const& point, View const& view,
+               Shading& to) const;
+
+    CompiledMaterial const& operator[](scene::MaterialId id) const {
+        return compiled_[size_t(id.index)];
+    }
+
+  private:
+    template <class F>
+    void for_each_part(scene::MaterialId id, F const& f) const;
+    int most_lobes(scene::MaterialId id) const;
+
+    std::vector<CompiledMaterial> compiled_; ///< as the scene's
+};
+
+/// Index of refraction of a closed object of this material.
+scene::Input<float> interior_ior(scene::Scene const& scene, scene::MaterialId id);
+
+/// Whether light goes through into the object's inside.
+bool is_transmissive(scene::Scene const& scene, scene::MaterialId id);
+
+/// Whether the material has no surface of its own: rays pass straight on.
+inline bool is_null_boundary(scene::Material const& material) {
+    return std::holds_alternative<scene::VolumeBoundary>(material);
+}
+
+} // namespace weft::shading
