@@ -1,33 +1,13 @@
 #include "lobes/albedo.h"
 
 #include "lobes/albedo_tables.h"
+#include "lobes/table.h"
 
 namespace weft::lobes {
 
 namespace {
 
 using namespace albedo_grid;
-
-/// The cell of an axis of n nodes over [0, 1] and the position inside it.
-struct Cell {
-    int index;
-    float t;
-    Cell(float coordinate, int nodes) {
-        float const x = std::min(std::max(coordinate, 0.f), 1.f) * float(nodes - 1);
-        index = std::min(int(x), nodes - 2);
-        t = x - float(index);
-    }
-};
-
-/// Interpolates a table whose axes follow `cell`, slowest first, after an offset of whole slabs.
-inline float look_up(uint16_t const* row, Cell const& c) {
-    return lerp(row[c.index], row[c.index + 1], c.t);
-}
-template <class... Faster>
-float look_up(uint16_t const* table, int stride, Cell const& c, Faster const&... faster) {
-    uint16_t const* const slab = table + c.index * stride;
-    return lerp(look_up(slab, faster...), look_up(slab + stride, faster...), c.t);
-}
 
 constexpr float kUnit = 1 / 65535.f;
 
@@ -67,44 +47,44 @@ constexpr int kReflectionPart = alphas * cosines; // one of the moments
 constexpr int kDielectricPart = indices * alphas * cosines;
 
 /// The white albedo, isotropic.
-float isotropic(uint16_t const* reflection, Cell const& a, Cell const& c) {
-    return look_up(reflection, cosines, a, c) * kUnit;
+float isotropic(uint16_t const* reflection, TableCell const& a, TableCell const& c) {
+    return interpolate(reflection, cosines, a, c) * kUnit;
 }
 
 float anisotropic(uint16_t const* table, float alpha_x, float alpha_y, Vec3 const& wo) {
     bool const along_x = alpha_x >= alpha_y;
     float const greater = along_x ? alpha_x : alpha_y, lesser = along_x ? alpha_y : alpha_x;
     float const u = std::abs(along_x ? wo.x : wo.y), v = std::abs(along_x ? wo.y : wo.x);
-    Cell const cell_g(alpha_coordinate(greater), greater_alphas);
-    Cell const cell_r(alpha_coordinate(lesser / greater), alpha_ratios);
-    Cell const cell_p(azimuth_coordinate(u, v), azimuths);
-    Cell const cell_c(cosine_coordinate(std::max(wo.z, 0.f), greater), anisotropic_cosines);
+    TableCell const cell_g(alpha_coordinate(greater), greater_alphas);
+    TableCell const cell_r(alpha_coordinate(lesser / greater), alpha_ratios);
+    TableCell const cell_p(azimuth_coordinate(u, v), azimuths);
+    TableCell const cell_c(cosine_coordinate(std::max(wo.z, 0.f), greater), anisotropic_cosines);
     constexpr int row = anisotropic_cosines, slab = azimuths * row, book = alpha_ratios * slab;
-    return look_up(table, book, cell_g, slab, cell_r, row, cell_p, cell_c) * kUnit;
+    return interpolate(table, book, cell_g, slab, cell_r, row, cell_p, cell_c) * kUnit;
 }
 
 } // namespace
 
 float ashikhmin_shirley_area(float alpha, float a) {
-    Cell const cell_a(alpha, area_alphas), cell_t(area_slope_coordinate(a), area_slopes);
-    return look_up(albedo_tables::ashikhmin_shirley_area, area_slopes, cell_a, cell_t) * kUnit;
+    TableCell const cell_a(alpha, area_alphas), cell_t(area_slope_coordinate(a), area_slopes);
+    return interpolate(albedo_tables::ashikhmin_shirley_area, area_slopes, cell_a, cell_t) * kUnit;
 }
 
 template <class D>
 float white_albedo(D const& d, Vec3 const& wo) {
     if (d.alpha_x != d.alpha_y)
         return anisotropic(Tables<D>::anisotropic, d.alpha_x, d.alpha_y, wo);
-    return isotropic(Tables<D>::reflection, Cell(alpha_coordinate(d.alpha_x), alphas),
-                     Cell(cosine_coordinate(std::max(wo.z, 0.f), d.alpha_x), cosines));
+    return isotropic(Tables<D>::reflection, TableCell(alpha_coordinate(d.alpha_x), alphas),
+                     TableCell(cosine_coordinate(std::max(wo.z, 0.f), d.alpha_x), cosines));
 }
 
 template <class D>
 ReflectionMoments reflection_moments(D const& d, Vec3 const& wo) {
     float const alpha = mean_square_alpha(d.alpha_x, d.alpha_y);
-    Cell const a(alpha_coordinate(alpha), alphas);
-    Cell const c(cosine_coordinate(std::max(wo.z, 0.f), alpha), cosines);
+    TableCell const a(alpha_coordinate(alpha), alphas);
+    TableCell const c(cosine_coordinate(std::max(wo.z, 0.f), alpha), cosines);
     auto const moment = [&](int i) {
-        return look_up(Tables<D>::reflection + i * kReflectionPart, cosines, a, c) * kUnit;
+        return interpolate(Tables<D>::reflection + i * kReflectionPart, cosines, a, c) * kUnit;
     };
     ReflectionMoments m{moment(0), moment(1), moment(2), moment(3), moment(4)};
     if (d.alpha_x != d.alpha_y) {
@@ -121,15 +101,15 @@ DielectricAlbedo dielectric_albedo(D const& d, Vec3 const& wo, float eta) {
     bool const leaving = eta < 1;
     float const c = std::min(std::max(wo.z, 0.f), 1.f),
                 alpha = alpha_along(d.alpha_x, d.alpha_y, wo);
-    Cell const cell_e(index_coordinate(leaving ? 1 / eta : eta), indices);
-    Cell const cell_a(alpha_coordinate(alpha), alphas);
-    Cell const cell_c(leaving ? leaving_cosine_coordinate(c, eta, alpha)
-                              : fresnel_cosine_coordinate(c, alpha),
-                      cosines);
+    TableCell const cell_e(index_coordinate(leaving ? 1 / eta : eta), indices);
+    TableCell const cell_a(alpha_coordinate(alpha), alphas);
+    TableCell const cell_c(leaving ? leaving_cosine_coordinate(c, eta, alpha)
+                                   : fresnel_cosine_coordinate(c, alpha),
+                           cosines);
     uint16_t const* const side = Tables<D>::dielectric + (leaving ? 2 * kDielectricPart : 0);
     auto const part = [&](int i) {
-        return look_up(side + i * kDielectricPart, alphas * cosines, cell_e, cosines, cell_a,
-                       cell_c) *
+        return interpolate(side + i * kDielectricPart, alphas * cosines, cell_e, cosines, cell_a,
+                           cell_c) *
                kUnit;
     };
     float const all = power_at(part(0));

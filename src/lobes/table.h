@@ -23,11 +23,12 @@ float interpolate(T const* table, TableCell const& c) {
     return lerp(float(table[c.index]), float(table[c.index + 1]), c.t);
 }
 
-/// Rows of `columns` values.
-template <class T>
-float interpolate(T const* table, int columns, TableCell const& row, TableCell const& column) {
-    T const* const first = table + row.index * columns;
-    return lerp(interpolate(first, column), interpolate(first + columns, column), row.t);
+/// Along several, slowest first: each axis but the last is preceded by the values in one step of
+/// it.
+template <class T, class... Faster>
+float interpolate(T const* table, int stride, TableCell const& c, Faster const&... faster) {
+    T const* const slab = table + c.index * stride;
+    return lerp(interpolate(slab, faster...), interpolate(slab + stride, faster...), c.t);
 }
 
 } // namespace weft::lobes

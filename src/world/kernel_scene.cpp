@@ -2,6 +2,7 @@
 #include <stdexcept>
 
 #include "base/hash.h"
+#include "world/edge_hits.h"
 #include "world/world_builder.h"
 
 namespace weft::world {
@@ -16,23 +17,13 @@ struct FilterContext {
     bool passable_only = false, solid = false; ///< of closest hits
     float visibility = 1;
 
-    // The last triangle asked about. Along a shared edge the kernel finds both triangles, which are
-    // one surface.
-    uint32_t last_object = UINT32_MAX, last_primitive = 0;
-    float last_t = 0;
-    bool last_passed = false;
+    EdgeHits met;
 
-    /// Whether the hit is that of the last triangle's neighbour, at the same distance.
-    bool repeats(World const& w, uint32_t object, uint32_t primitive, float t) const {
-        constexpr float same = 1e-5f; // of the distance: far above rounding, far below a leaf's gap
-        return object == last_object && primitive != last_primitive &&
-               std::abs(t - last_t) <= same * t && w.object(object).kind == ObjectKind::Mesh;
-    }
-    void remember(uint32_t object, uint32_t primitive, float t, bool passed) {
-        last_object = object;
-        last_primitive = primitive;
-        last_t = t;
-        last_passed = passed;
+    /// The hit of the same point in a neighbouring triangle, if there was one.
+    EdgeHits::Entry const* repeated(Hit const& hit, Corners corners) const {
+        return met.find(hit, corners, [&](uint32_t object, uint32_t a, Corners c, uint32_t b) {
+            return world->has_corners(object, a, c, b);
+        });
     }
 };
 
@@ -41,10 +32,13 @@ uint32_t hit_object(RTCFilterFunctionNArguments const* args) {
     return instance != RTC_INVALID_GEOMETRY_ID ? instance : RTCHitN_geomID(args->hit, 1, 0);
 }
 
+Hit to_hit(RTCFilterFunctionNArguments const* args) {
+    return {RTCRayN_tfar(args->ray, 1, 0), hit_object(args), RTCHitN_primID(args->hit, 1, 0),
+            RTCHitN_u(args->hit, 1, 0), RTCHitN_v(args->hit, 1, 0)};
+}
+
 float hit_opacity(RTCFilterFunctionNArguments const* args, FilterContext const& context,
-                  uint32_t object) {
-    Hit const hit{0, object, RTCHitN_primID(args->hit, 1, 0), RTCHitN_u(args->hit, 1, 0),
-                  RTCHitN_v(args->hit, 1, 0)};
+                  Hit const& hit) {
     Vec3 const ng(RTCHitN_Ng_x(args->hit, 1, 0), RTCHitN_Ng_y(args->hit, 1, 0),
                   RTCHitN_Ng_z(args->hit, 1, 0));
     Vec3 const direction(RTCRayN_dir_x(args->ray, 1, 0), RTCRayN_dir_y(args->ray, 1, 0),
@@ -57,13 +51,13 @@ float hit_opacity(RTCFilterFunctionNArguments const* args, FilterContext const& 
 void filter_closest(RTCFilterFunctionNArguments const* args) {
     auto& context = *reinterpret_cast<FilterContext*>(args->context);
     if (args->valid[0] == 0) return;
-    uint32_t const object = hit_object(args), primitive = RTCHitN_primID(args->hit, 1, 0);
-    Object const& o = context.world->object(object);
+    Hit const hit = to_hit(args);
+    Object const& o = context.world->object(hit.object);
     if (context.passable_only && !o.is_passable()) args->valid[0] = 0;
     if (args->valid[0] == 0 || !o.has_alpha) return;
-    float const t = RTCRayN_tfar(args->ray, 1, 0);
-    if (context.repeats(*context.world, object, primitive, t)) {
-        if (context.last_passed) args->valid[0] = 0;
+    Corners const corners = o.kind == ObjectKind::Mesh ? corners_at(hit) : kAllCorners;
+    if (EdgeHits::Entry const* const known = context.repeated(hit, corners)) {
+        if (known->passed) args->valid[0] = 0;
         return;
     }
     // A sphere is one primitive that the ray may meet twice.
@@ -71,26 +65,25 @@ void filter_closest(RTCFilterFunctionNArguments const* args) {
                           RTCHitN_Ng_y(args->hit, 1, 0) * RTCRayN_dir_y(args->ray, 1, 0) +
                           RTCHitN_Ng_z(args->hit, 1, 0) * RTCRayN_dir_z(args->ray, 1, 0) >
                       0;
-    float const u =
-        context.solid
-            ? 0
-            : to_unit_float(hash_combine(hash_combine(context.seed, object), 2 * primitive + back));
-    bool const passed = u >= hit_opacity(args, context, object);
+    float const u = context.solid
+                        ? 0
+                        : to_unit_float(hash_combine(hash_combine(context.seed, hit.object),
+                                                     2 * hit.primitive + back));
+    bool const passed = u >= hit_opacity(args, context, hit);
     if (passed) args->valid[0] = 0;
-    context.remember(object, primitive, t, passed);
+    context.met.add(hit, corners, passed);
 }
 
 /// Shadow: all surfaces along the ray are passed, until nothing gets through.
 void filter_shadow(RTCFilterFunctionNArguments const* args) {
     auto& context = *reinterpret_cast<FilterContext*>(args->context);
     if (args->valid[0] == 0) return;
-    uint32_t const object = hit_object(args);
-    Object const& o = context.world->object(object);
-    uint32_t const primitive = RTCHitN_primID(args->hit, 1, 0);
-    float const t = RTCRayN_tfar(args->ray, 1, 0);
-    if (!o.is_passable() && !context.repeats(*context.world, object, primitive, t)) {
-        context.visibility *= 1 - hit_opacity(args, context, object);
-        context.remember(object, primitive, t, context.visibility > 0);
+    Hit const hit = to_hit(args);
+    Object const& o = context.world->object(hit.object);
+    Corners const corners = o.kind == ObjectKind::Mesh ? corners_at(hit) : kAllCorners;
+    if (!o.is_passable() && !context.repeated(hit, corners)) {
+        context.visibility *= 1 - hit_opacity(args, context, hit);
+        context.met.add(hit, corners, context.visibility > 0);
     }
     if (context.visibility > 0) args->valid[0] = 0;
 }

@@ -145,6 +145,20 @@ void World::apply_normal_map(Object const& object, shading::SurfacePoint& point)
     if (dot(mapped, point.ng) > 0) point.ns = mapped;
 }
 
+bool World::has_corners(uint32_t object, uint32_t a, uint8_t corners, uint32_t b) const {
+    TriangleData const& data = triangles_[size_t(objects_[object].triangles)];
+    auto const& of_a = data.source->triangles[a].v;
+    auto const& of_b = data.source->triangles[b].v;
+    auto is_of_b = [&](uint32_t v) {
+        return std::any_of(std::begin(of_b), std::end(of_b), [&](uint32_t w) {
+            return v == w || data.vertices[v].p == data.vertices[w].p;
+        });
+    };
+    for (int k = 0; k < 3; ++k)
+        if (corners & (1 << k) && !is_of_b(of_a[k])) return false;
+    return true;
+}
+
 float World::opacity(Hit const& hit, Vec3 const& ng, Vec3 const& direction) const {
     Object const& o = objects_[hit.object];
     bool const uv_alone = within(textures_.needs(o.opacity), shading::Needs::uv);

@@ -135,6 +135,8 @@ class World {
     /// Opacity at a hit, seen along `direction`, whose geometric normal, as the kernel has it, is
     /// `ng`.
     float opacity(Hit const& hit, Vec3 const& ng, Vec3 const& direction) const;
+    /// Whether those corners (bits) of a mesh's triangle `a` are corners of triangle `b`, too.
+    bool has_corners(uint32_t object, uint32_t a, uint8_t corners, uint32_t b) const;
     /// A point of a mesh at `hit`, or of a sphere in direction `local` from its centre, both in
     /// the object's space; seen from unit `wo`.
     shading::SurfacePoint point_on(Hit const& hit, Vec3 const& local, Vec3 const& wo,

@@ -2,6 +2,7 @@
 #include "shading/materials.h"
 
 #include "tests/shading/networks.h"
+#include "tests/support/textures.h"
 
 using namespace weft;
 using namespace weft::testing;
@@ -123,10 +124,7 @@ TEST(Graph, CalculatedValuesStayInTheParametersRange) {
 
 TEST(Graph, ImagesFeedNumbersWithTheirMean) {
     Network net;
-    image::Image image;
-    image.width = image.height = 1, image.channels = 3;
-    image.pixels = {0.1f, 0.2f, 0.7f};
-    net.scene.images.push_back(std::make_shared<image::Image const>(image));
+    net.scene.images.push_back(texture_of(1, 1, 3, {0.1f, 0.2f, 0.7f}));
     scene::ImageTexture node;
     node.filename.resource = 0;
     scene::Dielectric glass;
@@ -141,12 +139,7 @@ TEST(Graph, ImagesFeedNumbersWithTheirMean) {
 
 TEST(Graph, UdimTilesLieSideBySide) {
     Network net;
-    for (float value : {0.25f, 0.75f}) {
-        image::Image image;
-        image.width = image.height = 1, image.channels = 1;
-        image.pixels = {value};
-        net.scene.images.push_back(std::make_shared<image::Image const>(image));
-    }
+    for (float value : {0.25f, 0.75f}) net.scene.images.push_back(texture_of(1, 1, 1, {value}));
     net.scene.udims = {{{1001, 0}, {1012, 1}}};
     scene::ImageTexture node;
     node.filename = {"skin.<UDIM>.png", 0};

@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <limits>
 
 #include "base/hash.h"
+#include "tests/support/textures.h"
 
 using namespace weft;
 using namespace weft::shading;
@@ -18,12 +18,7 @@ std::shared_ptr<image::Texture const> noise(int width, int height) {
     std::vector<float> values(size_t(width) * size_t(height) * 3);
     Rng rng(3);
     for (float& v : values) v = rng.next();
-    std::vector<std::byte> bytes(values.size() * sizeof(float));
-    std::memcpy(bytes.data(), values.data(), bytes.size());
-    auto texture = image::Texture::in_memory({image::TexelType::f32, 3, image::Transfer::linear},
-                                             width, height, std::move(bytes));
-    texture.add_levels();
-    return std::make_shared<image::Texture const>(std::move(texture));
+    return weft::testing::texture_of(width, height, 3, values);
 }
 
 Color texel(image::Texture const& t, int level, int x, int y) {

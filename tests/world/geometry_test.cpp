@@ -349,33 +349,6 @@ TEST(RayRecorder, KnowsItsListsWhereverItLives) {
     }
 }
 
-TEST(Opacity, CountsASharedEdgeOnce) {
-    // Rays along the diagonal of a square and through the vertices of a ball, where the kernel may
-    // find two triangles or more.
-    TemporaryFolder const folder;
-    scene::Mesh const ball = icosphere(2, false);
-    write_ply(folder / "ball.ply", ball);
-    auto const scene =
-        make_scene(kCamera + R"(<instance alpha="0.5"><shape type="rectangle"/></instance>
-        <instance alpha="0.5"><shape type="mesh" filename="ball.ply"/><transform><translate x="10"/></transform></instance>)",
-                   "type=\"path\"", folder.path());
-    int twice = 0, rays = 0;
-    for (int i = -50; i <= 50; ++i) {
-        float const s = float(i) / 51;
-        for (Vec3 const& from : {Vec3(s, s, -3), Vec3(0, 0, -3)}) {
-            Ray const ray{from, normalize(Vec3(s, s, 0) - from)};
-            twice += scene.world->visibility(ray) < 0.5f;
-            ++rays;
-        }
-    }
-    for (Vec3 const& p : ball.positions) {
-        Ray const ray{Vec3(10, 0, 0), p};
-        twice += scene.world->visibility(ray) < 0.5f;
-        ++rays;
-    }
-    EXPECT_EQ(twice, 0) << "of " << rays;
-}
-
 TEST(Groups, OuterSettingsReplaceThoseOfMembers) {
     std::string const group = R"(
         <bsdf type="diffuse" id="red" albedo="1,0,0"/><bsdf type="diffuse" id="blue" albedo="0,0,1"/>
