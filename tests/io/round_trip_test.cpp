@@ -121,8 +121,21 @@ TEST(RoundTrip, EveryTypeOfEveryCategory) {
     std::string const scene = "<scene>" + kCamera + "</scene>";
     round_trips<scene::Camera>(
         "", [](std::string const& t) { return parse("<scene>" + t + "</scene>").cameras.at(0); });
-    round_trips<scene::Material>(
-        "", [](std::string const& t) { return parse_in_instance(t).materials.at(0); });
+    // What a material is made of comes before it.
+    auto material = [](std::string const& t) { return parse_in_instance(t).materials.back(); };
+    round_trips<
+        std::variant<scene::Diffuse, scene::Conductor, scene::RoughConductor, scene::Dielectric,
+                     scene::RoughDielectric, scene::Principled, scene::Disney, scene::Microfacet,
+                     scene::Translucent, scene::Transparent, scene::Hair, scene::VolumeBoundary>>(
+        "", material);
+    std::string const part = "<bsdf type='diffuse'/>", layer = "<layer>" + part + "</layer>";
+    round_trips<std::variant<scene::Coat>>(part, material);
+    round_trips<std::variant<scene::Mix, scene::Secondary>>(part + part, material);
+    round_trips<std::variant<scene::Layered>>(layer, material);
+    round_trips<std::variant<scene::Layer>>(part, [](std::string const& t) {
+        return std::variant<scene::Layer>(
+            parse_in_instance("<bsdf type='layered'>" + t + "</bsdf>").layers.at(0));
+    });
     round_trips<scene::Shape>("", [](std::string const& t) {
         return parse("<scene>" + kCamera + "<instance>" + t + "</instance></scene>").shapes.at(0);
     });
