@@ -115,7 +115,19 @@ Color sky(Vec2 uv) {
            Color(1, 0.85f, 0.6f) * (2 * std::pow(std::max(to_sun, 0.f), 60.f));
 }
 
-image::Image paint(int width, int height, Color (*color)(Vec2)) {
+/// Rust over lacquer and the like: patches of two colours, other ones for every number.
+Color patches(Vec2 uv, uint32_t number) {
+    auto hue = [&](uint32_t i) {
+        return Color(to_unit_float(hash_combine(number, 3 * i)),
+                     to_unit_float(hash_combine(number, 3 * i + 1)),
+                     to_unit_float(hash_combine(number, 3 * i + 2)));
+    };
+    float const mask = smooth(std::clamp(6 * fractal(uv, 5, 100 + number) - 2.5f, 0.f, 1.f));
+    return lerp(hue(0) * 0.8f, hue(1) * 0.5f, mask) * (0.7f + 0.5f * fractal(uv, 24, number));
+}
+
+template <class F>
+image::Image paint(int width, int height, F const& color) {
     image::Image im = image::make_image(width, height, 3);
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
@@ -166,6 +178,15 @@ void make_assets(std::string const& folder) {
     image::write_png(folder + "/glaze.png", paint(2048, 1024, glaze_color));
     image::write_png(folder + "/roughness.png", paint(1024, 1024, roughness));
     image::write_exr(folder + "/sky.exr", paint(1024, 512, sky));
+    for (uint32_t i = 0; i < 6; ++i) {
+        std::string const number = std::to_string(i);
+        image::write_png(folder + "/color_" + number + ".png",
+                         paint(1024, 1024, [i](Vec2 uv) { return patches(uv, i); }));
+        image::write_png(folder + "/mask_" + number + ".png", paint(1024, 1024, [i](Vec2 uv) {
+                             return Color(
+                                 smooth(std::clamp(4 * fractal(uv, 6, 200 + i) - 1.5f, 0.f, 1.f)));
+                         }));
+    }
 }
 
 } // namespace weft::bench

@@ -6,7 +6,7 @@
 
 namespace weft::bench {
 
-/// Writes all of them into `folder`, which is made where it is missing; about 60 MB.
+/// Writes all of them into `folder`, which is made where it is missing; about 80 MB.
 void make_assets(std::string const& folder);
 
 } // namespace weft::bench

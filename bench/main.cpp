@@ -29,6 +29,7 @@ struct RenderBench {
 /// processors: 5.5 s x 1.09e-3 (Mitsuba 3, 16-wide LLVM mode).
 std::vector<RenderBench> const kRenderBenches{{"diffuse_area", 0.55, 0},
                                               {"glass_textures_env", 0.45, 0},
+                                              {"disney", 0.40, 0},
                                               {"instances", 0, 0},
                                               {"cornell", 0, 3.0e-3}};
 constexpr char const* kLoadingBench = "load_1m";
