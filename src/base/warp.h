@@ -6,14 +6,24 @@
 
 namespace weft {
 
+/// (cos a, sin a) for |a| <= pi / 4, to the last bit but one: Moshier's polynomials (Cephes, sinf).
+/// Without reduction to that range they cost a third of the library's.
+inline Vec2 cos_sin_octant(float a) {
+    float const a2 = a * a;
+    float const s = ((-1.9515295891e-4f * a2 + 8.3321608736e-3f) * a2 - 1.6666654611e-1f) * a2;
+    float const c =
+        ((2.443315711809948e-5f * a2 - 1.388731625493765e-3f) * a2 + 4.166664568298827e-2f) * a2;
+    return {1 + a2 * (c - 0.5f), a + a * s};
+}
+
 /// Unit square to unit disk: Shirley and Chiu 1997, concentric. Density 1 / pi.
 inline Vec2 square_to_disk(Vec2 u) {
     float const x = 2 * u.x - 1, y = 2 * u.y - 1;
     if (x == 0 && y == 0) return {0, 0};
     bool const wide = std::abs(x) > std::abs(y);
-    float const r = wide ? x : y;
-    float const phi = wide ? (kPi / 4) * (y / x) : kPi / 2 - (kPi / 4) * (x / y);
-    return {r * std::cos(phi), r * std::sin(phi)};
+    // The angle to the nearer axis.
+    Vec2 const d = cos_sin_octant((kPi / 4) * (wide ? y / x : x / y));
+    return wide ? Vec2(x * d.x, x * d.y) : Vec2(y * d.y, y * d.x);
 }
 
 /// Cosine-weighted hemisphere around +z. Density cos / pi.

@@ -135,4 +135,13 @@ TEST(Warp, ExtremeNumbersStayInTheDomain) {
 }
 
 } // namespace
+TEST(Warp, CosineAndSineOfAnOctant) {
+    for (int i = -10000; i <= 10000; ++i) {
+        float const a = float(i) * (kPi / 4) / 10000;
+        Vec2 const v = cos_sin_octant(a);
+        ASSERT_NEAR(v.x, std::cos(double(a)), 6e-8);
+        ASSERT_NEAR(v.y, std::sin(double(a)), 6e-8);
+    }
+}
+
 } // namespace weft
