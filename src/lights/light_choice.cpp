@@ -23,6 +23,7 @@ LightChoice::LightChoice(std::span<float const> weights) {
 
 LightChoice::Choice LightChoice::choose(Vec3 const&, Vec3 const&, float u) const {
     if (empty()) return {};
+    if (count_ == 1) return {0, 1, u};
     Distribution1D::Choice const c = by_weight_.choose(u);
     return {c.index, c.probability, c.u};
 }
