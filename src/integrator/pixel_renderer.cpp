@@ -74,7 +74,8 @@ PixelRenderer::PixelRenderer(world::World const& world, scene::Integrator const&
                               : match(sampler, [](auto const& s) { return s.count; }));
 }
 
-Color PixelRenderer::trace(scene::CameraIntegrator const& i, world::Ray const& ray) const {
+Color PixelRenderer::trace(scene::CameraIntegrator const& i, world::Ray const& ray,
+                           uint32_t) const {
     if (!i.grid) return as_color(ray.direction);
     // Where the ray meets the plane z = 1.
     float const t = (1 - ray.origin.z) / ray.direction.z;
@@ -83,8 +84,9 @@ Color PixelRenderer::trace(scene::CameraIntegrator const& i, world::Ray const& r
     return on_line(p.x) || on_line(p.y) ? i.grid_color : direction_color(ray.direction);
 }
 
-Color PixelRenderer::trace(scene::AovIntegrator const& i, world::Ray const& ray) const {
-    world::Hit const hit = world_.intersect(ray);
+Color PixelRenderer::trace(scene::AovIntegrator const& i, world::Ray const& ray,
+                           uint32_t alpha_seed) const {
+    world::Hit const hit = world_.intersect(ray, alpha_seed);
     bool const normals = i.variable == scene::AovVariable::normals;
     if (!hit) return normals ? Color(0.5f) / i.scale : Color(0);
     shading::SurfacePoint const point = world_.surface(ray, hit);
@@ -101,15 +103,17 @@ Color PixelRenderer::trace(scene::AovIntegrator const& i, world::Ray const& ray)
     return Color(0);
 }
 
-Color PixelRenderer::trace(scene::NormalIntegrator const& i, world::Ray const& ray) const {
-    world::Hit const hit = world_.intersect(ray);
+Color PixelRenderer::trace(scene::NormalIntegrator const& i, world::Ray const& ray,
+                           uint32_t alpha_seed) const {
+    world::Hit const hit = world_.intersect(ray, alpha_seed);
     if (!hit) return Color(0);
     Vec3 const n = world_.surface(ray, hit).ns;
     return i.remap ? direction_color(n) : as_color(n);
 }
 
-Color PixelRenderer::trace(scene::AlbedoIntegrator const&, world::Ray const& ray) const {
-    world::Hit const hit = world_.intersect(ray);
+Color PixelRenderer::trace(scene::AlbedoIntegrator const&, world::Ray const& ray,
+                           uint32_t alpha_seed) const {
+    world::Hit const hit = world_.intersect(ray, alpha_seed);
     if (!hit) return Color(0);
     return world_.shade(world_.surface(ray, hit), -ray.direction, media_)
         .bsdf.albedo(-ray.direction);
@@ -124,9 +128,11 @@ Color PixelRenderer::sample(Vec2i pixel, uint32_t sample) const {
     world::Ray const ray =
         camera.ray(raster, camera.has_lens() ? u.get2(Dimension::Lens) : Vec2(0.5f),
                    u.get1(Dimension::Time), path_.footprint_scale);
+    // That of a path's first vertex, so that all pictures of a scene see the same surfaces.
+    uint32_t const alpha_seed = world_.has_alpha() ? u.walk(Dimension::Alpha, 1).next_uint() : 0;
     return match(integrator_, [&](auto const& i) {
-        if constexpr (requires { trace(i, ray); }) {
-            return trace(i, ray);
+        if constexpr (requires { trace(i, ray, alpha_seed); }) {
+            return trace(i, ray, alpha_seed);
         } else {
             film::SampleSink sink;
             trace_path(world_, path_, ray, media_, u, sink);

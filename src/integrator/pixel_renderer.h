@@ -19,10 +19,10 @@ class PixelRenderer {
     Color sample(Vec2i pixel, uint32_t sample) const;
 
   private:
-    Color trace(scene::CameraIntegrator const& i, world::Ray const& ray) const;
-    Color trace(scene::AovIntegrator const& i, world::Ray const& ray) const;
-    Color trace(scene::NormalIntegrator const& i, world::Ray const& ray) const;
-    Color trace(scene::AlbedoIntegrator const& i, world::Ray const& ray) const;
+    Color trace(scene::CameraIntegrator const& i, world::Ray const& ray, uint32_t alpha_seed) const;
+    Color trace(scene::AovIntegrator const& i, world::Ray const& ray, uint32_t alpha_seed) const;
+    Color trace(scene::NormalIntegrator const& i, world::Ray const& ray, uint32_t alpha_seed) const;
+    Color trace(scene::AlbedoIntegrator const& i, world::Ray const& ray, uint32_t alpha_seed) const;
 
     world::World const& world_;
     scene::Integrator integrator_;
