@@ -24,14 +24,32 @@ Image read_image(std::string const& path) {
     return image;
 }
 
-Texture read_texture(std::string const& path, Transfer transfer) {
-    auto const input = open_flat_image(path);
+namespace {
+
+Texture opaque_texture() {
+    return Texture::in_memory({TexelType::u8, 1, Transfer::linear}, 1, 1, {std::byte(0xff)});
+}
+
+} // namespace
+
+Texture read_texture(ImageSource const& source, Transfer transfer, Channels channels) {
+    std::string_view const bytes = source.bytes.value_or("");
+    OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
+    auto const input =
+        source.bytes ? open_flat_image(memory, source.path) : open_flat_image(source.path);
     OIIO::ImageSpec const& spec = input->spec();
-    TexelFormat const format = texel_format(spec, transfer);
+    bool const alpha = channels == Channels::alpha;
+    if (alpha && spec.alpha_channel < 0) return opaque_texture();
+    TexelFormat const format = texel_format(spec, transfer, channels);
+    int const first = alpha ? spec.alpha_channel : 0;
     std::vector<std::byte> texels(size_t(spec.width) * size_t(spec.height) * format.bytes());
-    check_read(*input, path,
-               input->read_image(0, 0, 0, format.channels, oiio_type(format.type), texels.data()));
-    check_end(*input, path);
+    check_read(*input, source.path,
+               input->read_image(0, 0, first, first + format.channels, oiio_type(format.type),
+                                 texels.data()));
+    if (source.bytes)
+        check_end(*input, memory, source.path);
+    else
+        check_end(*input, source.path);
     return Texture::in_memory(format, spec.width, spec.height, std::move(texels));
 }
 

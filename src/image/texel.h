@@ -12,6 +12,10 @@ namespace weft::image {
 /// How the integers of a file encode linear numbers.
 enum class Transfer : uint8_t { linear, gamma22, srgb };
 
+/// Which channels of a file a texture holds: the first three (or the first of fewer), or the
+/// opacity, which is linear.
+enum class Channels : uint8_t { color, alpha };
+
 enum class TexelType : uint8_t { u8, u16, f16, f32 };
 
 constexpr size_t size_of(TexelType type) {

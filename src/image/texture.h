@@ -5,11 +5,14 @@
 // last. Both are decoded by the same arithmetic, so that where a texel lies changes no bit. Screen
 // colours stay as the file encodes them, a quarter of the size of floats.
 //
-// Left out on purpose: alpha and further channels, which no lookup asks for.
+// A texture holds a file's colours or its alpha: few lookups want both. Left out on purpose:
+// further channels.
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "image/mip_levels.h"
@@ -55,8 +58,20 @@ class Texture {
     std::shared_ptr<TiledFile const> tiles_;
 };
 
+/// An image file: the one at `path` or, where there are `bytes`, a PNG or JPEG file in memory,
+/// which `path` only names.
+struct ImageSource {
+    ImageSource(std::string file) : path(std::move(file)) {}
+    ImageSource(std::string name, std::string_view file) : path(std::move(name)), bytes(file) {}
+
+    std::string path;
+    std::optional<std::string_view> bytes;
+};
+
 /// The whole of an image file's first level, in memory. `transfer` is how integers encode colours,
-/// unless the file says that they are linear. Throws like `read_image`.
-Texture read_texture(std::string const& path, Transfer transfer);
+/// unless the file says that they are linear. The alpha of a file that has none is one texel of 1.
+/// Throws like `read_image`.
+Texture read_texture(ImageSource const& source, Transfer transfer,
+                     Channels channels = Channels::color);
 
 } // namespace weft::image

@@ -71,13 +71,14 @@ uint64_t TextureCache::tile_limit() const {
 
 void TextureCache::share_memory() { tiles_->limit(tile_limit()); }
 
-std::shared_ptr<Texture const> TextureCache::load(std::string const& path, Transfer transfer,
-                                                  bool mip_levels) {
-    auto& texture = textures_[{path, transfer}];
+std::shared_ptr<Texture const> TextureCache::load(ImageSource const& source, Transfer transfer,
+                                                  bool mip_levels, Channels channels) {
+    Key const key(source.path, transfer, channels);
+    auto& texture = textures_[key];
     try {
-        if (!texture) texture = std::make_shared<Texture>(read(path, transfer));
+        if (!texture) texture = std::make_shared<Texture>(read(source, transfer, channels));
     } catch (...) {
-        textures_.erase({path, transfer});
+        textures_.erase(key);
         throw;
     }
     if (mip_levels && texture->is_in_memory()) {
@@ -89,7 +90,9 @@ std::shared_ptr<Texture const> TextureCache::load(std::string const& path, Trans
     return texture;
 }
 
-Texture TextureCache::read(std::string const& path, Transfer transfer) {
+Texture TextureCache::read(ImageSource const& source, Transfer transfer, Channels channels) {
+    if (source.bytes || channels == Channels::alpha) return read_whole(source, transfer, channels);
+    std::string const& path = source.path;
     FileFacts const facts = facts_of(path, transfer);
     if (facts.has_tiles) return in_tiles(path, transfer);
     uint64_t const bytes = facts.texels * facts.format.bytes();
@@ -100,7 +103,11 @@ Texture TextureCache::read(std::string const& path, Transfer transfer) {
         std::string const tiled = converted(path, facts.format.transfer);
         if (!tiled.empty()) return in_tiles(tiled, facts.format.transfer);
     }
-    Texture texture = read_texture(path, transfer);
+    return read_whole(source, transfer, channels);
+}
+
+Texture TextureCache::read_whole(ImageSource const& source, Transfer transfer, Channels channels) {
+    Texture texture = read_texture(source, transfer, channels);
     memory_bytes_ += texture.memory_bytes();
     share_memory();
     return texture;

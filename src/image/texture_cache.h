@@ -5,13 +5,15 @@
 // (tiled_file.h), which has the rest; an image that is not in tiles with mip levels is converted
 // once into a folder (texture_file.h), under a name made of its path, size, time of change and
 // encoding, so that a changed file is converted anew. Where the folder cannot be written, a warning
-// says so and the image is read whole. None of this changes a bit of a lookup.
+// says so and the image is read whole. What is in memory as a file's bytes, and alpha, which few
+// ask for, is always read whole. None of this changes a bit of a lookup.
 #pragma once
 
 #include <functional>
 #include <map>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -47,8 +49,8 @@ class TextureCache {
     /// The texture in a file, with mip levels where asked for; loaded once per path and encoding.
     /// Not to be called by several threads at once, nor while a render reads the textures. Throws
     /// InputError like `read_image`.
-    std::shared_ptr<Texture const> load(std::string const& path, Transfer transfer,
-                                        bool mip_levels);
+    std::shared_ptr<Texture const> load(ImageSource const& source, Transfer transfer,
+                                        bool mip_levels, Channels channels = Channels::color);
 
     /// What the user ought to know, since the last call.
     std::vector<std::string> take_warnings() { return std::exchange(warnings_, {}); }
@@ -57,7 +59,10 @@ class TextureCache {
     TextureStatistics statistics() const;
 
   private:
-    Texture read(std::string const& path, Transfer transfer);
+    using Key = std::tuple<std::string, Transfer, Channels>;
+
+    Texture read(ImageSource const& source, Transfer transfer, Channels channels);
+    Texture read_whole(ImageSource const& source, Transfer transfer, Channels channels);
     std::string converted(std::string const& path, Transfer transfer);
     Texture in_tiles(std::string const& path, Transfer transfer);
     uint64_t tile_limit() const;
@@ -65,7 +70,7 @@ class TextureCache {
 
     TextureCacheOptions options_;
     std::shared_ptr<TileCache> tiles_;
-    std::map<std::pair<std::string, Transfer>, std::shared_ptr<Texture>> textures_;
+    std::map<Key, std::shared_ptr<Texture>> textures_;
     std::vector<std::string> warnings_;
     uint64_t memory_bytes_ = 0; ///< of texels in memory
 };

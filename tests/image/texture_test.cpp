@@ -220,6 +220,44 @@ TEST_F(Textures, BadFilesHaveTheMessagesOfImages) {
     EXPECT_NE(message([&] { tiles.load(path("whole.tx"), Transfer::srgb, false); }), "none");
 }
 
+TEST_F(Textures, FilesInMemoryAreThoseOnDisk) {
+    auto bytes_of = [&](char const* name) {
+        std::ifstream in(path(name), std::ios::binary);
+        return std::string(std::istreambuf_iterator<char>(in), {});
+    };
+    write_noise("a.png", 40, 30, 3, TexelType::u8);
+    write_noise("b.jpg", 40, 30, 3, TexelType::u8);
+    TextureCache cache;
+    for (char const* name : {"a.png", "b.jpg"}) {
+        std::string const bytes = bytes_of(name);
+        auto const here =
+                       cache.load({std::string("bytes of ") + name, bytes}, Transfer::srgb, true),
+                   there = cache.load(path(name), Transfer::srgb, true);
+        ASSERT_EQ(here->width, there->width);
+        ASSERT_EQ(here->level_count(), there->level_count());
+        EXPECT_EQ(std::memcmp(here->texels(0), there->texels(0), there->memory_bytes()), 0);
+        for (size_t size : {size_t(0), size_t(3), bytes.size() / 2, bytes.size() - 13})
+            EXPECT_THROW(
+                cache.load({"cut", std::string_view(bytes).substr(0, size)}, Transfer::srgb, false),
+                InputError)
+                << name << " " << size;
+    }
+}
+
+TEST_F(Textures, AlphaIsATextureOfItsOwn) {
+    write_noise("rgba.png", 20, 10, 4, TexelType::u8);
+    write_noise("rgb.png", 20, 10, 3, TexelType::u8);
+    TextureCache cache;
+    auto const alpha = cache.load(path("rgba.png"), Transfer::srgb, false, Channels::alpha);
+    Image const image = read_image(path("rgba.png"));
+    EXPECT_EQ(alpha->format().channels, 1);
+    for (int y = 0; y < 10; ++y)
+        for (int x = 0; x < 20; ++x) EXPECT_EQ(alpha->texel(0, x, y)[0], image.at(x, y, 3));
+    auto const none = cache.load(path("rgb.png"), Transfer::srgb, true, Channels::alpha);
+    EXPECT_EQ(none->texel(0, 0, 0)[0], 1);
+    EXPECT_EQ(cache.load(path("rgb.png"), Transfer::srgb, false)->format().channels, 3);
+}
+
 TEST_F(Textures, StatisticsTellWhereTexelsLie) {
     write_noise("a.png", 100, 100, 3, TexelType::u8);
     TextureCache memory, tiles(tiles_only());
