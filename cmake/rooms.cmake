@@ -23,7 +23,7 @@ endif()
 
 set(weft_libraries_base Imath::Imath)
 set(weft_libraries_image OpenImageIO::OpenImageIO)
-set(weft_libraries_io pugixml::pugixml fmt::fmt)
+set(weft_libraries_io pugixml::pugixml nlohmann_json::nlohmann_json fmt::fmt)
 set(weft_libraries_schema nlohmann_json::nlohmann_json fmt::fmt)
 set(weft_libraries_world weft_embree TBB::tbb)
 set(weft_libraries_session TBB::tbb fmt::fmt Threads::Threads)

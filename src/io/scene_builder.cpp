@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "io/gltf.h"
 #include "io/obj.h"
 #include "io/object_reader_impl.h"
 #include "io/ply.h"
@@ -306,6 +307,28 @@ void SceneBuilder::complete(scene::MeshShape& shape, XmlElement const& element) 
     SourceLocation const& where = location_of(element, "filename");
     std::string const path = existing_file(element.folder, shape.filename.path, where);
     if (files_ == Files::read) shape.filename.resource = load_mesh(path, where);
+}
+
+void SceneBuilder::complete(scene::Group& group, XmlElement const& element) {
+    if (group.filename.path.empty()) return;
+    SourceLocation const& where = location_of(element, "filename");
+    std::string const path = existing_file(element.folder, group.filename.path, where);
+    if (!is_gltf(path))
+        throw InputError(where, "'filename' of " + element_title(element) +
+                                    " expects a .gltf or .glb file, found " +
+                                    in_quotes(group.filename.path));
+    if (files_ != Files::read) return;
+    GltfContents const contents =
+        read_at(where, [&] { return read_gltf(path, scene_, *document_.textures); });
+    for (scene::InstanceId id : contents.instances) {
+        summaries_.push_back(summary(scene_.instances[size_t(id.index)]));
+        group.instances.push_back(id);
+    }
+    texture_types_.resize(scene_.textures.size(), scene::ValueType::color);
+    for (std::string const& warning : contents.warnings) document_.warnings.push_back(warning);
+    if (!contents.lights.empty())
+        document_.warnings.push_back(to_string(where) +
+                                     ": the file's lamps are left out: a group holds instances");
 }
 
 void SceneBuilder::complete(scene::DirectionalLight& light, XmlElement const& element) {

@@ -21,6 +21,7 @@ struct Document {
     std::map<std::string, std::shared_ptr<scene::Mesh const>> meshes; ///< by path
     std::shared_ptr<image::TextureCache> textures;                    ///< the images among them
     std::set<XmlElement const*> used; ///< the elements that became objects
+    std::vector<std::string> warnings;
 };
 
 /// Collects the ids of `document.root`.
@@ -93,6 +94,7 @@ class SceneBuilder {
     void complete(scene::Secondary& material, XmlElement const& element);
     void complete(scene::ThinLens& camera, XmlElement const& element);
     void complete(scene::MeshShape& mesh, XmlElement const& element);
+    void complete(scene::Group& group, XmlElement const& element);
     void complete(scene::DirectionalLight& light, XmlElement const& element);
     void complete(scene::SpotLight& light, XmlElement const& element);
     void complete(scene::AreaLight& light, XmlElement const& element);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "io/gltf.h"
 #include "io/object_reader_impl.h"
 
 namespace weft::io {
@@ -185,7 +186,7 @@ SceneFile read_document(std::unique_ptr<XmlElement> root, std::vector<std::strin
                         std::shared_ptr<image::TextureCache> textures) {
     if (!textures) textures = std::make_shared<image::TextureCache>();
     for (std::string const& o : overrides) apply_override(*root, o);
-    Document document{std::move(root), {}, {}, textures, {}};
+    Document document{std::move(root), {}, {}, textures, {}, {}};
     index_ids(document);
     JobReader reader(document);
     SceneFile file;
@@ -224,6 +225,7 @@ SceneFile read_document(std::unique_ptr<XmlElement> root, std::vector<std::strin
     check_image_names(file);
     for (std::string& warning : textures->take_warnings())
         file.warnings.push_back(std::move(warning));
+    for (std::string& warning : document.warnings) file.warnings.push_back(std::move(warning));
     file.textures = std::move(textures);
     return file;
 }
@@ -237,7 +239,11 @@ void add_schemas(std::vector<schema::Schema>& to) {
 
 SceneFile read_scene_file(std::string const& path, std::vector<std::string> const& overrides,
                           std::shared_ptr<image::TextureCache> textures) {
-    return read_document(read_xml(path), overrides, std::move(textures));
+    if (!is_gltf(path)) return read_document(read_xml(path), overrides, std::move(textures));
+    if (!overrides.empty())
+        throw InputError({path}, "expected an XML scene for --set " + overrides.front() +
+                                     ", found a glTF file: write a scene with a group of it");
+    return read_gltf_scene(path, std::move(textures));
 }
 
 SceneFile parse_scene(std::string_view text, std::string const& name, std::string const& folder,

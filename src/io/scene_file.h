@@ -35,6 +35,7 @@ struct SceneFile {
 /// parameter of the objects that PATH (ids or tags, outermost first) leads to, as if the file
 /// said so. A file with a scene and no integrator gives one job: `path` with its defaults.
 /// Images are read through `textures`, or through a cache of the default size where it is null.
+/// A glTF file (.gltf, .glb) is a scene as io/gltf.h says, and takes no overrides.
 /// Throws InputError.
 SceneFile read_scene_file(std::string const& path, std::vector<std::string> const& overrides = {},
                           std::shared_ptr<image::TextureCache> textures = {});

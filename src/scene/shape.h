@@ -51,11 +51,16 @@ struct Group {
         .category = "shape",
         .type = "group",
         .help = "Several instances as one shape. What the outer instance sets (bsdf, emission, "
-                "alpha, normal) replaces what its members have."};
+                "alpha, normal) replaces what its members have.",
+        .example = "<shape type=\"group\" filename=\"robot.glb\"/>"};
+    FileName filename;
     std::vector<InstanceId> instances;
 
     template <class F>
     constexpr void describe(F&& f) {
+        f("filename", filename,
+          {.help = "A glTF file (.gltf or .glb) whose meshes are members, too, with its materials; "
+                   "relative to the scene file."});
         f("instance", instances, {.help = "The members."});
     }
 };

@@ -52,7 +52,9 @@ void add_info_command(CLI::App& app, Command& chosen) {
     auto args = std::make_shared<Arguments>();
     CLI::App* c =
         app.add_subcommand("info", "Tell what a scene holds, and what looks like a mistake");
-    c->add_option("scene", args->scene, "The scene file")->required()->type_name("SCENE");
+    c->add_option("scene", args->scene, "The scene file, or a glTF file")
+        ->required()
+        ->type_name("SCENE");
     add_texture_options(*c, args->textures);
     c->callback([args, &chosen] { chosen = [args] { return run(*args); }; });
 }

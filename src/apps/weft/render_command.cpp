@@ -129,7 +129,9 @@ int run(RenderArguments& a) {
 void add_render_command(CLI::App& app, Command& chosen) {
     auto a = std::make_shared<RenderArguments>();
     CLI::App* c = app.add_subcommand("render", "Render a scene file");
-    c->add_option("scene", a->scene, "The scene file")->required()->type_name("SCENE");
+    c->add_option("scene", a->scene, "The scene file, or a glTF file (.gltf, .glb)")
+        ->required()
+        ->type_name("SCENE");
     c->add_option(
          "-o,--output", a->outputs,
          "Picture to write: .exr, .hdr, .png, .jpg, .tif, or a folder; may be given several times")
