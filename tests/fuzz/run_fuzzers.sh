@@ -1,6 +1,6 @@
 #!/bin/sh
 # Builds the fuzzers with Clang and runs each for FUZZ_SECONDS (10), from the corpus beside this
-# script and the files of tests/io/bad. Exit code 77, "skipped", where there is no Clang.
+# script and the files of tests/io/bad and bad_gltf. Exit code 77, "skipped", where there is no Clang.
 set -eu
 
 root=$(cd "$(dirname "$0")/../.." && pwd)
@@ -22,13 +22,13 @@ cmake --preset fuzz -B "$build" -DCMAKE_CXX_COMPILER="$compiler" >"$scratch/log"
     { cat "$scratch/log"; exit 1; }
 cmake --build "$build" --target fuzzers >"$scratch/log" 2>&1 || { cat "$scratch/log"; exit 1; }
 
-for kind in scene ply; do
+for kind in scene ply gltf; do
     # New inputs go to the scratch folder; a crashing one is kept in the build folder.
     mkdir "$scratch/$kind"
     "$build/fuzz_$kind" -max_total_time="${FUZZ_SECONDS:-10}" -max_len=4096 -timeout=10 \
         -rss_limit_mb=1024 -malloc_limit_mb=256 -print_final_stats=1 \
         -artifact_prefix="$build/fuzz_$kind-" \
-        "$scratch/$kind" tests/fuzz/corpus/"$kind" tests/io/bad 2>"$scratch/log" ||
+        "$scratch/$kind" tests/fuzz/corpus/"$kind" tests/io/bad tests/io/bad_gltf 2>"$scratch/log" ||
         { tail -n 40 "$scratch/log"; exit 1; }
     grep -E 'number_of_executed_units|average_exec_per_sec' "$scratch/log" |
         sed "s/^stat::/fuzz_$kind: /"
