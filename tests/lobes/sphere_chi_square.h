@@ -68,6 +68,8 @@ class SphereChiSquare {
     static constexpr double kPiD = 3.14159265358979323846;
     static constexpr double kInside = 1 - 1e-9;
     static constexpr int kPilot = 1 << 14, kBins = 1 << 7;
+    static constexpr double kTolerance = 3e-8;
+    static constexpr int kDepth = 16;
 
     struct Point {
         double t, phi;
@@ -119,9 +121,14 @@ class SphereChiSquare {
         size_t const n = points.size();
         auto const quartiles = [&](auto key) {
             std::vector<double> keys;
+            keys.reserve(n);
             for (Point const& p : points) keys.push_back(key(p));
-            std::sort(keys.begin(), keys.end());
-            return std::array{keys[n / 4], (keys[(n - 1) / 2] + keys[n / 2]) / 2, keys[3 * n / 4]};
+            auto const from = keys.begin(), upper = from + long(n / 2);
+            std::nth_element(from, upper, keys.end());
+            std::nth_element(from, from + long(n / 4), upper);
+            if (3 * n / 4 > n / 2) std::nth_element(upper + 1, from + long(3 * n / 4), keys.end());
+            double const lower = n % 2 == 0 ? *std::max_element(from, upper) : *upper;
+            return std::array{keys[n / 4], (lower + *upper) / 2, keys[3 * n / 4]};
         };
         auto const t = quartiles([](Point const& p) { return p.t; });
         auto const phi = quartiles([](Point const& p) { return p.phi; });
@@ -151,13 +158,13 @@ class SphereChiSquare {
     /// Wraps the points first, so that what is integrated has the size of what is there; the
     /// space around them goes in strips.
     double integrate_cell(Box box, std::vector<Point>& points) {
-        if (points.size() < 2) return integrate(box, rule(box), 0);
+        if (points.size() < 2) return integrate(box);
         double around = wrap(box, points);
-        if (points.size() <= 8) return around + integrate(box, rule(box), 0);
+        if (points.size() <= 8) return around + integrate(box);
         auto const [node, below, above] = cut(box, points);
         std::vector<Point> lower, upper;
         partition(node, points, lower, upper);
-        if (lower.empty() || upper.empty()) return around + integrate(box, rule(box), 0);
+        if (lower.empty() || upper.empty()) return around + integrate(box);
         around += integrate_cell(below, lower);
         return around + integrate_cell(above, upper);
     }
@@ -185,7 +192,7 @@ class SphereChiSquare {
                 high.phi0 = box.phi1 = inner.phi1;
             }
             for (Box const& strip : {low, high})
-                if (strip.area() > 0) sum += integrate(strip, rule(strip), 0);
+                if (strip.area() > 0) sum += integrate(strip);
         }
         return sum;
     }
@@ -194,38 +201,54 @@ class SphereChiSquare {
     double rule(Box const& b) {
         static constexpr std::array x{-1.0, -0.65465367070797714, 0.0, 0.65465367070797714, 1.0};
         static constexpr std::array w{0.05, 49 / 180.0, 16 / 45.0, 49 / 180.0, 0.05};
+        std::array<Azimuth, 5> across;
+        for (size_t j = 0; j < 5; ++j)
+            across[j] = azimuth(b, (b.phi0 + b.phi1 + x[j] * (b.phi1 - b.phi0)) / 2);
         double sum = 0;
         for (size_t i = 0; i < 5; ++i) {
             double const t = (b.t0 + b.t1 + x[i] * (b.t1 - b.t0)) / 2 * kInside;
             double const r = std::sqrt(1 - t * t);
             for (size_t j = 0; j < 5; ++j) {
-                double const phi = (b.phi0 + b.phi1 + x[j] * (b.phi1 - b.phi0)) / 2;
-                sum += w[i] * w[j] * density_(direction(b, t, r, phi));
+                double const f =
+                    density_({float(r * across[j].cos), float(t), float(r * across[j].sin)});
+                sum += w[i] * w[j] * f;
             }
         }
         evaluations_ += 25;
         return sum * b.area();
     }
 
-    /// Stays on the box's side of the horizon, which itself belongs to neither.
-    static Vec3 direction(Box const& b, double t, double r, double phi) {
+    struct Azimuth {
+        double cos = 1, sin = 0;
+    };
+    /// Of phi, on the box's side of the horizon, which itself belongs to neither.
+    static Azimuth azimuth(Box const& b, double phi) {
         double const inside = std::min(std::max(std::abs(phi), 1 - kInside), kPiD * kInside);
         double const sign = b.phi1 > 0 ? 1 : -1;
-        return {float(r * std::cos(inside)), float(t), float(sign * r * std::sin(inside))};
+        return {std::cos(inside), sign * std::sin(inside)};
     }
 
-    double integrate(Box const& b, double whole, int depth) {
+    /// The sum of f over the quarters of a box.
+    template <class F>
+    static double split(Box const& b, F&& f) {
         double const t = (b.t0 + b.t1) / 2, phi = (b.phi0 + b.phi1) / 2;
-        std::array<Box, 4> const parts{Box{b.t0, t, b.phi0, phi}, Box{t, b.t1, b.phi0, phi},
-                                       Box{b.t0, t, phi, b.phi1}, Box{t, b.t1, phi, b.phi1}};
-        std::array<double, 4> values{};
         double sum = 0;
-        for (size_t i = 0; i < 4; ++i) sum += values[i] = rule(parts[i]);
-        // Rounding of the directions makes narrow densities rough, hence the end to depth.
-        if (std::abs(sum - whole) < 3e-8 || depth == 16) return sum;
-        sum = 0;
-        for (size_t i = 0; i < 4; ++i) sum += integrate(parts[i], values[i], depth + 1);
+        for (Box const& part : {Box{b.t0, t, b.phi0, phi}, Box{t, b.t1, b.phi0, phi},
+                                Box{b.t0, t, phi, b.phi1}, Box{t, b.t1, phi, b.phi1}})
+            sum += f(part);
         return sum;
+    }
+
+    double integrate(Box const& b) { return integrate(b, rule(b), 0); }
+    /// By halving until a box agrees with its quarters.
+    double integrate(Box const& b, double whole, int depth) {
+        std::array<double, 4> quarters{};
+        size_t i = 0;
+        double const sum = split(b, [&](Box const& part) { return quarters[i++] = rule(part); });
+        // Rounding of the directions makes narrow densities rough, hence the end to depth.
+        if (std::abs(sum - whole) < kTolerance || depth == kDepth) return sum;
+        i = 0;
+        return split(b, [&](Box const& part) { return integrate(part, quarters[i++], depth + 1); });
     }
 
     Sample sample_;
