@@ -40,9 +40,10 @@ bench: ## Run the benchmarks; figures go to build/bench.json
 	cmake --build --preset release --target weft_bench
 	build/release/weft_bench build/bench.json
 
-docs: ## Regenerate docs/reference from the schemas
+docs: ## Regenerate docs/reference from the schemas, docs/materials.md from scenes/materials
 docs: weft
 	$(WEFT) docs docs/reference
+	$(WEFT) help materials --markdown >docs/materials.md
 
 format: ## Rewrite every C++ file to .clang-format
 	@$(SETUP) check

@@ -168,6 +168,7 @@ struct Bump {
     Input<float> height{0};
     Input<float> scale{1};
     Input<SurfaceNormal> normal;
+    Input<float> step{0};
 
     template <class F>
     constexpr void describe(F&& f) {
@@ -175,6 +176,12 @@ struct Bump {
         f("scale", scale, {.help = "Factor on the height."});
         f("normal", normal,
           {.help = "What is bent, in world space; unconnected: the shading normal."});
+        f("step", step,
+          {.unit = "scene",
+           .min = 0,
+           .help = "How far to both sides slopes are measured: a tenth of the finest detail is a "
+                   "good choice. 0: 1/2000 of the uv square, or of the object's unit where there "
+                   "are no uvs."});
     }
 };
 

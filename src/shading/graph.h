@@ -66,6 +66,7 @@ struct BumpOp {
     int part = 0;
     scene::Input<float> scale;
     scene::Input<scene::SurfaceNormal> normal;
+    scene::Input<float> step;
 };
 
 /// The program `part` seen along the three axes.

@@ -215,9 +215,10 @@ Operand GraphCompiler::translate(scene::nodes::GeomPropValue const& node, scene:
 }
 
 Operand GraphCompiler::translate(scene::nodes::Bump const& node, scene::ValueType type) {
-    BumpOp op{0, node.scale, node.normal};
+    BumpOp op{0, node.scale, node.normal, node.step};
     connect(op.scale);
     connect(op.normal);
+    connect(op.step);
     op.part = part(node.height);
     building_->program.cost += 4 * building_->program.parts[size_t(op.part)].cost;
     return {emit(op, Needs::geometry), Vec3(0), type};

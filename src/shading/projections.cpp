@@ -31,7 +31,7 @@ Vec3 run(BumpOp const& n, NodeContext const& at) {
     Vec3 const normal = at(n.normal);
     Program const& height = at.program.parts[size_t(n.part)];
     Frame const frame(normal, at.point.dpdu);
-    float const step = step_length(at.point);
+    float const chosen = at(n.step), step = chosen > 0 ? chosen : step_length(at.point);
     auto slope = [&](Vec3 const& tangent) {
         Vec2 const duv = uv_change(at.point, tangent);
         auto height_at = [&](float distance) {

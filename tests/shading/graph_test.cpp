@@ -182,7 +182,7 @@ TEST(Graph, TooLargeIsALocatedError) {
 }
 
 /// height = a sin(k x) on the plane z = 0, by position or by u = x / 2.
-Vec3 bumped(float x, float a, float k, bool by_uv, bool has_uv) {
+Vec3 bumped(float x, float a, float k, bool by_uv, bool has_uv, float step = 0) {
     Network net;
     nodes::Extract const coordinate{by_uv ? net.any(nodes::Texcoord{}) : net.any(place()), 0};
     nodes::Sin const wave{
@@ -194,7 +194,7 @@ Vec3 bumped(float x, float a, float k, bool by_uv, bool has_uv) {
         point.dpdu = {2, 0, 0}, point.dpdv = {0.5f, 1, 0};
         point.uv.x -= 0.1f * 0.25f; // p = 2 u + 0.5 v
     }
-    return net.at(net.add(nodes::Bump{net.input<float>(wave), {a}, {}}), point);
+    return net.at(net.add(nodes::Bump{net.input<float>(wave), {a}, {}, {step}}), point);
 }
 
 TEST(Bump, IsTheNormalOfASineField) {
@@ -204,6 +204,16 @@ TEST(Bump, IsTheNormalOfASineField) {
         Vec3d const expected = normalize(Vec3d(-a * k * std::cos(double(k) * x), 0, 1));
         expect_near(bumped(x, a, k, false, true), expected, 5e-4, "by position, with uvs");
         expect_near(bumped(x, a, k, false, false), expected, 5e-4, "by position, without uvs");
+    }
+}
+
+TEST(Bump, SeesDetailFinerThanTheUvSquareByAStep) {
+    constexpr float a = 2e-4f, k = 2 * kPi / 1e-3f; // waves of the length that is chosen otherwise
+    for (int i = 0; i < 100; ++i) {
+        float const x = 1e-5f * float(i);
+        Vec3d const expected = normalize(Vec3d(-a * k * std::cos(double(k) * x), 0, 1));
+        expect_near(bumped(x, a, k, false, true, 1e-5f), expected, 2e-3, "with a step");
+        expect_near(bumped(x, a, k, false, false, 1e-5f), expected, 2e-3, "without uvs");
     }
 }
 

@@ -1,11 +1,12 @@
-// weft help [TYPE], weft schema --json, weft docs DIR: all from the one declaration of each
-// parameter.
+// weft help [TYPE | MATERIAL | materials], weft schema --json, weft docs DIR: all from the one
+// declaration of each parameter.
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
 #include <memory>
 
 #include "apps/weft/commands.h"
+#include "apps/weft/material_library.h"
 #include "base/error.h"
 #include "io/scene_file.h"
 
@@ -14,6 +15,9 @@ namespace weft::apps {
 namespace {
 
 int list_types(std::vector<schema::Schema> const& all) {
+    fmt::print("Topics\n  {:<16} How would it feel to the touch? Starting values for `disney`, and "
+               "{} ready materials.\n\n",
+               "materials", material_library().size());
     fmt::print("Types of the scene file; `weft help TYPE` explains one, `weft --help` the command "
                "line.\n");
     std::string_view category;
@@ -28,10 +32,22 @@ int list_types(std::vector<schema::Schema> const& all) {
     return kDone;
 }
 
-int help(std::string const& name) {
+struct HelpArguments {
+    std::string name;
+    bool markdown = false;
+};
+
+int help(HelpArguments const& args) {
+    std::string const& name = args.name;
     auto const all = io::all_schemas();
+    if (args.markdown && name != "materials")
+        throw InputError("--markdown is for `weft help materials`; `weft docs` writes all types");
     if (name.empty()) return list_types(all);
-    std::vector<std::string> known;
+    if (name == "materials") {
+        fmt::print("{}", materials_text(args.markdown));
+        return kDone;
+    }
+    std::vector<std::string> known{"materials"};
     bool found = false;
     for (schema::Schema const& s : all) {
         for (std::string_view n : {s.info.type, s.info.category})
@@ -41,7 +57,14 @@ int help(std::string const& name) {
         fmt::print("{}{}", found ? "\n" : "", schema::help_text(s));
         found = true;
     }
-    if (!found) throw InputError("no type is called '" + name + "'" + suggestion(name, known));
+    for (LibraryFile const& file : material_library()) {
+        known.emplace_back(file.name);
+        if (file.name != name) continue;
+        fmt::print("{}{}", found ? "\n" : "", file.text);
+        found = true;
+    }
+    if (!found)
+        throw InputError("no type or material is called '" + name + "'" + suggestion(name, known));
     return kDone;
 }
 
@@ -73,11 +96,15 @@ int write_docs(std::string const& folder) {
 } // namespace
 
 void add_help_command(CLI::App& app, Command& chosen) {
-    auto name = std::make_shared<std::string>();
+    auto args = std::make_shared<HelpArguments>();
     CLI::App* c = app.add_subcommand(
         "help", "Explain a type of the scene file: its parameters, ranges, units and defaults");
-    c->add_option("type", *name, "A type or tag; none lists all")->type_name("TYPE");
-    c->callback([name, &chosen] { chosen = [name] { return help(*name); }; });
+    c->add_option("type", args->name,
+                  "A type or tag; `materials` for values to start from; a material of the library, "
+                  "which is printed as a file; none lists all")
+        ->type_name("TYPE");
+    c->add_flag("--markdown", args->markdown, "`materials` as the page docs/materials.md");
+    c->callback([args, &chosen] { chosen = [args] { return help(*args); }; });
 }
 
 void add_schema_command(CLI::App& app, Command& chosen) {

@@ -1,0 +1,37 @@
+// The materials of scenes/materials, as the program carries them: `weft help materials` and the
+// page docs/materials.md are made of what these files say, so that neither can say something else.
+//
+// A file opens with a comment: what it is, and sections that begin with "Feel:", "Scale:",
+// "Play with:" and "From:". It then defines a bsdf whose id is the file's name.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace weft::apps {
+
+struct LibraryFile {
+    std::string_view name; ///< of the file without .xml, and of the bsdf
+    std::string_view text;
+};
+
+/// All of them in the order of their names; cmake/material_library.cmake writes the function.
+std::span<LibraryFile const> material_library();
+
+struct LibraryMaterial {
+    std::string_view name;
+    std::string what, feel, scale, play; ///< of the comment; `scale` may be empty
+    std::string values;                  ///< attributes of its bsdf, as they stand in a file
+    std::vector<std::string> patterns;   ///< parameters that are fed by nodes
+};
+
+/// Throws InputError where the file is not as described above.
+LibraryMaterial read_library_material(LibraryFile const& file);
+
+/// How things feel to the touch, with values of `disney` to start from, and all materials of the
+/// library: for a terminal, or (`markdown`) as the page docs/materials.md.
+std::string materials_text(bool markdown);
+
+} // namespace weft::apps
