@@ -1,7 +1,6 @@
 #include "lobes/albedo.h"
 
 #include "lobes/albedo_tables.h"
-#include "lobes/fresnel.h"
 #include "lobes/table.h"
 
 namespace weft::lobes {
@@ -97,16 +96,6 @@ ReflectionMoments reflection_moments(D const& d, Vec3 const& wo) {
     return m;
 }
 
-/// What is transmitted at `eta` over what is at the greatest index that the tables know, 1 for all
-/// that they do: on the way in by a facet under the mean angle, on the way out by one seen head-on.
-template <class D>
-float beyond_tables(D const& d, Vec3 const& wo, float eta) {
-    float const greatest = index_at(1);
-    if (eta > 1 / greatest && eta <= greatest) return 1;
-    float const c = eta > 1 ? reflection_moments(d, wo).mean : 1;
-    return (1 - fresnel_dielectric(c, eta)) / (1 - fresnel_dielectric(c, greatest));
-}
-
 template <class D>
 DielectricAlbedo dielectric_albedo(D const& d, Vec3 const& wo, float eta) {
     bool const leaving = eta < 1;
@@ -125,8 +114,7 @@ DielectricAlbedo dielectric_albedo(D const& d, Vec3 const& wo, float eta) {
     };
     float const all = power_at(part(0));
     float const reflected = std::min(part(1), all);
-    float const transmitted = (all - reflected) * beyond_tables(d, wo, eta);
-    return {all - transmitted, transmitted};
+    return {reflected, all - reflected};
 }
 
 template float white_albedo(Ggx const&, Vec3 const&);
