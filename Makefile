@@ -6,7 +6,7 @@ FUZZ_SECONDS ?= 60
 WEFT := build/release/weft
 
 .DEFAULT_GOAL := help
-.PHONY: help weft demo test bench docs format check dev asan tsan fuzz clean
+.PHONY: help weft demo figures test bench docs format check dev asan tsan fuzz clean
 
 help: ## Print this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-8s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
@@ -15,6 +15,10 @@ demo: ## Install what is missing, build, and render scenes/demo.xml to build/dem
 demo: weft
 	$(WEFT) render scenes/demo.xml -o build/demo.exr -o build/demo.png
 	@echo "The pictures are build/demo.exr and build/demo.png"
+
+figures: ## Render the figures of docs/figures.md to build/figures
+figures: weft
+	tools/render_figures build/figures
 
 test: ## Install what is missing, build, and run every test
 dev: ## The same in build/dev, with asserts and debug information

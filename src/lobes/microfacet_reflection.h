@@ -53,8 +53,9 @@ struct MicrofacetReflection {
 
   private:
     Color rough_albedo(Vec3 const& wo, ReflectionMoments const& m) const {
-        // Dielectrics have tables of their own.
-        if (auto const* d = std::get_if<DielectricFresnel>(&fresnel))
+        // Dielectrics have tables of their own, up to an index beyond which moments say as much.
+        auto const* const d = std::get_if<DielectricFresnel>(&fresnel);
+        if (d && d->eta <= albedo_grid::index_at(1))
             return Color(dielectric_albedo(distribution, wo, d->eta).reflected);
         return rough_reflectance(fresnel, m);
     }

@@ -44,6 +44,7 @@ inline std::vector<std::pair<std::string, Fresnel>> test_fresnels() {
             {"Schlick", SchlickFresnel{Color(0.04f, 0.5f, 0.9f), Color(1, 0.8f, 0.9f)}},
             {"F82", schlick_f82(Color(0.3f, 0.6f, 0.95f), Color(0.2f, 0.8f, 0.5f))},
             {"dielectric", DielectricFresnel{1.5f}},
+            {"dielectric of a high index", DielectricFresnel{15}},
             {"conductor", ConductorFresnel{gold.eta, gold.k}},
             {"film on a metal", ThinFilmFresnel{{300, 1.4f}, iron.eta, iron.k}},
             {"film on glass", ThinFilmFresnel{{450, 1.33f}, Color(1.5f), Color(0)}}};
