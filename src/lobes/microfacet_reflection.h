@@ -55,7 +55,7 @@ struct MicrofacetReflection {
     Color rough_albedo(Vec3 const& wo, ReflectionMoments const& m) const {
         // Dielectrics have tables of their own.
         if (auto const* d = std::get_if<DielectricFresnel>(&fresnel))
-            return Color(dielectric_albedo(distribution, wo, d->eta).reflected);
+            return Color(dielectric_reflection(distribution, wo, d->eta));
         return rough_reflectance(fresnel, m);
     }
     Color compensation(float white) const {
