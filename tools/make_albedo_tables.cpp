@@ -148,12 +148,15 @@ void write_area(Writer& out) {
 
 template <class Distribution>
 void write_reflection(Writer& out, std::string const& name) {
-    std::array<ReflectionMoments, alphas * cosines> all;
+    std::array<ReflectionMoments, alphas * reflection_cosines> all;
     for (int a = 0; a < alphas; ++a) {
         Distribution const d{alpha_node(a, alphas), alpha_node(a, alphas)};
-        for (int c = 0; c < cosines; ++c)
-            all[size_t(a * cosines + c)] =
-                integrate(d, direction(cosine_at(node(c, cosines), d.alpha_x), 1, 0), 0).white;
+        for (int c = 0; c < reflection_cosines; ++c)
+            all[size_t(a * reflection_cosines + c)] =
+                integrate(
+                    d, direction(fresnel_cosine_at(node(c, reflection_cosines), d.alpha_x), 1, 0),
+                    0)
+                    .white;
     }
     out.open(name + "_reflection");
     for (auto const member :
@@ -183,19 +186,19 @@ void write_reflection(Writer& out, std::string const& name) {
 
 template <class Distribution>
 void write_dielectric(Writer& out, std::string const& name) {
-    std::array<std::array<DielectricAlbedo, indices * alphas * cosines>, 2> sides;
+    std::array<std::array<DielectricAlbedo, indices * dielectric_alphas * cosines>, 2> sides;
     for (int leaving = 0; leaving < 2; ++leaving)
         for (int e = 0; e < indices; ++e)
-            for (int a = 0; a < alphas; ++a)
+            for (int a = 0; a < dielectric_alphas; ++a)
                 for (int c = 0; c < cosines; ++c) {
                     // Total reflection does not fade as the indices meet: it shrinks. The
                     // first node stands for that limit rather than for equal indices.
                     float const ratio = std::max(index_at(node(e, indices)), 1.001f);
-                    float const u = node(c, cosines), alpha = alpha_node(a, alphas);
+                    float const u = node(c, cosines), alpha = alpha_node(a, dielectric_alphas);
                     float const eta = leaving ? 1 / ratio : ratio;
                     float const cos_o =
                         leaving ? leaving_cosine_at(u, eta, alpha) : fresnel_cosine_at(u, alpha);
-                    sides[size_t(leaving)][size_t((e * alphas + a) * cosines + c)] =
+                    sides[size_t(leaving)][size_t((e * dielectric_alphas + a) * cosines + c)] =
                         integrate(Distribution{alpha, alpha}, direction(cos_o, 1, 0), eta)
                             .dielectric;
                 }

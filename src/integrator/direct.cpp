@@ -21,10 +21,11 @@ bool is_hidden(world::World const& world, int32_t object, media::MediumStack con
 
 } // namespace
 
-void direct(world::World const& world, scene::Strategy strategy, PathState const& path,
+void direct(world::World const& world, PathSettings const& settings, PathState const& path,
             ScatterPoint const& point, sampling::SampleStream const& u, uint32_t vertex,
             film::SampleSink& sink) {
     using sampling::Dimension;
+    scene::Strategy const strategy = settings.strategy;
     world::LightSample const light =
         world.lights().sample(point.p, point.n, u.get3(Dimension::Light, vertex));
     // What rays can find is left to them where the strategy says so.
@@ -43,7 +44,7 @@ void direct(world::World const& world, scene::Strategy strategy, PathState const
                        light.p_error;
         if (!(shadow.t_max > 0)) return;
     }
-    Color through(world.visibility(shadow));
+    Color through = world.visibility(shadow, !settings.full_materials);
     if (is_black(through)) return;
     if (world.has_media()) {
         media::MediumStack media = path.media;

@@ -3,7 +3,6 @@
 
 #include "film/contribution.h"
 #include "integrator/path_state.h"
-#include "scene/render_settings.h"
 
 namespace weft::integrator {
 
@@ -14,9 +13,9 @@ inline float power_heuristic(float pdf, float other) {
     return 1 / (1 + ratio * ratio);
 }
 
-/// One light sample at `point`, vertex number `vertex`, added to `sink`: choice of light, shadow
-/// ray through transparent surfaces and media, MIS weight.
-void direct(world::World const& world, scene::Strategy strategy, PathState const& path,
+/// One light sample at `point`, by the random numbers of `vertex`, added to `sink`: choice of
+/// light, shadow ray through transparent surfaces and media, MIS weight.
+void direct(world::World const& world, PathSettings const& settings, PathState const& path,
             ScatterPoint const& point, sampling::SampleStream const& u, uint32_t vertex,
             film::SampleSink& sink);
 

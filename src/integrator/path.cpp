@@ -68,7 +68,7 @@ void scatter_in_medium(world::World const& world, PathSettings const& settings, 
     point.g = world.medium(path.media.current().medium).g;
     path.signature.append(film::Bounce::Volume);
     path.scattered = true;
-    direct(world, settings.strategy, path, point, u, vertex, sink);
+    direct(world, settings, path, point, u, vertex, sink);
     path.p = point.p;
     path.n = Vec3(0);
     path.ray.direction =
@@ -85,6 +85,23 @@ void continue_from(world::World const& world, PathState& path, shading::SurfaceP
     path.ray.direction = direction;
     path.ray.t_min = world::Ray().t_min;
     path.ray.cone.width = path.ray.cone.width_at(point.t);
+}
+
+/// Scattering at a surface by the sample `s`. Whatever goes straight on where light sampling sees
+/// through as well is no scattering: the last one stays the one that what is found is weighed by.
+/// Whether it was one.
+bool scatter(PathState& path, lobes::BsdfSample const& s, ScatterPoint const& point,
+             bool see_through) {
+    path.throughput *= s.weight;
+    if (see_through && any(s.flags, lobes::LobeFlags::Straight)) return false;
+    path.eta_scale *= s.eta_scale;
+    bool const delta = any(s.flags, lobes::LobeFlags::Delta);
+    path.pdf = delta ? 0 : s.pdf;
+    path.scattered |= !delta;
+    path.p = point.p;
+    path.n = point.n;
+    path.signature.append(bounce_kind(s.flags));
+    return true;
 }
 
 /// Ends paths that carry little, and strengthens those that survive: the mean stays. The root
@@ -107,15 +124,17 @@ void trace_path(world::World const& world, PathSettings const& settings, world::
     path.ray = ray;
     path.media = media;
     constexpr uint32_t max_crossings = 1000; // only broken geometry has so many
-    uint32_t crossings = 0;
+    uint32_t crossings = 0;                  // of surfaces that are no vertex
     for (uint32_t vertex = 1; vertex <= settings.depth; ++vertex) {
+        if (crossings > max_crossings) return;
+        uint32_t const step = vertex + crossings;
         uint32_t const alpha_seed =
-            world.has_alpha() ? u.walk(Dimension::Alpha, vertex + crossings).next_uint() : 0;
+            world.has_alpha() ? u.walk(Dimension::Alpha, step).next_uint() : 0;
         world::Hit const hit = world.intersect(path.ray, alpha_seed);
 
-        if (fly(world, path, hit.t, u, vertex + crossings)) {
+        if (fly(world, path, hit.t, u, step)) {
             if (vertex == settings.depth) return;
-            scatter_in_medium(world, settings, path, vertex, u, sink);
+            scatter_in_medium(world, settings, path, step, u, sink);
         } else if (!hit) {
             add_background(world, settings, path, sink);
             return;
@@ -125,7 +144,7 @@ void trace_path(world::World const& world, PathSettings const& settings, world::
             bool const hidden =
                 object.has_interior && !path.media.is_visible(hit.object, object.rank);
             if (object.is_null || hidden) { // no vertex: straight on
-                if (++crossings > max_crossings) return;
+                ++crossings;
                 continue_from(world, path, point, path.ray.direction, true);
                 --vertex;
                 continue;
@@ -134,28 +153,27 @@ void trace_path(world::World const& world, PathSettings const& settings, world::
             shading::Shading const shading =
                 world.shade(point, wo, path.media, path.scattered && !settings.full_materials);
             add_emission(world, settings, path, point, shading.emission, sink);
-            if (vertex == settings.depth) return;
+            bool const last = vertex == settings.depth;
+            if (last && !object.is_see_through) return;
 
             ScatterPoint const here{point.p, shading.bsdf.frame().n, wo, &shading.bsdf, &point};
-            if (shading.bsdf.has_smooth() && !world.lights().empty())
-                direct(world, settings.strategy, path, here, u, vertex, sink);
+            if (shading.bsdf.has_smooth() && !world.lights().empty() && !last)
+                direct(world, settings, path, here, u, step, sink);
 
-            lobes::BsdfSample const s = shading.bsdf.sample(wo, u.get3(Dimension::Bsdf, vertex));
+            lobes::BsdfSample const s = shading.bsdf.sample(wo, u.get3(Dimension::Bsdf, step));
             if (!(s.pdf > 0)) return;
-            path.throughput *= s.weight;
-            path.eta_scale *= s.eta_scale;
-            bool const delta = any(s.flags, lobes::LobeFlags::Delta);
-            path.pdf = delta ? 0 : s.pdf;
-            path.scattered |= !delta;
-            path.p = point.p;
-            path.n = here.n;
-            path.signature.append(bounce_kind(s.flags));
             continue_from(world, path, point, s.wi, any(s.flags, lobes::LobeFlags::Transmission));
-            path.ray.cone = world::scattered(path.ray.cone, path.pdf, settings.footprint_scale);
+            if (scatter(path, s, here, object.is_see_through)) {
+                if (last) return;
+                path.ray.cone = world::scattered(path.ray.cone, path.pdf, settings.footprint_scale);
+            } else { // no vertex, as where opacity leaves a hole
+                ++crossings;
+                --vertex;
+            }
         }
         if (is_black(path.throughput)) return;
         if (vertex >= settings.roulette_depth &&
-            !survives_roulette(path, u.get1(Dimension::Roulette, vertex)))
+            !survives_roulette(path, u.get1(Dimension::Roulette, step)))
             return;
     }
 }

@@ -1,12 +1,21 @@
-// What a path carries from vertex to vertex.
+// What a path is told, and what it carries from vertex to vertex.
 #pragma once
 
 #include "film/contribution.h"
 #include "media/medium_stack.h"
 #include "sampling/stream.h"
+#include "scene/render_settings.h"
 #include "world/world.h"
 
 namespace weft::integrator {
+
+struct PathSettings {
+    scene::Strategy strategy = scene::Strategy::mis;
+    uint32_t depth = 16;         ///< vertices seen along a path; the first hit is 1
+    uint32_t roulette_depth = 3; ///< vertices that Russian roulette leaves alone
+    float footprint_scale = 1;   ///< see world::footprint_scale
+    bool full_materials = false; ///< without stand-ins for secondary rays
+};
 
 struct PathState {
     world::Ray ray;

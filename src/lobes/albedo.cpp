@@ -43,12 +43,17 @@ float alpha_along(float x, float y, Vec3 const& wo) {
     return std::sqrt(lerp(y * y, x * x, lerp(cos2, 1 - cos2, across)));
 }
 
-constexpr int kReflectionPart = alphas * cosines; // one of the moments
-constexpr int kDielectricPart = indices * alphas * cosines;
+constexpr int kReflectionPart = alphas * reflection_cosines; // one of the moments
+constexpr int kDielectricPart = indices * dielectric_alphas * cosines;
+
+TableCell reflection_cell(Vec3 const& wo, float alpha) {
+    float const c = std::min(std::max(wo.z, 0.f), 1.f);
+    return {fresnel_cosine_coordinate(c, alpha), reflection_cosines};
+}
 
 /// The white albedo, isotropic.
 float isotropic(uint16_t const* reflection, TableCell const& a, TableCell const& c) {
-    return interpolate(reflection, cosines, a, c) * kUnit;
+    return interpolate(reflection, reflection_cosines, a, c) * kUnit;
 }
 
 float anisotropic(uint16_t const* table, float alpha_x, float alpha_y, Vec3 const& wo) {
@@ -75,16 +80,17 @@ float white_albedo(D const& d, Vec3 const& wo) {
     if (d.alpha_x != d.alpha_y)
         return anisotropic(Tables<D>::anisotropic, d.alpha_x, d.alpha_y, wo);
     return isotropic(Tables<D>::reflection, TableCell(alpha_coordinate(d.alpha_x), alphas),
-                     TableCell(cosine_coordinate(std::max(wo.z, 0.f), d.alpha_x), cosines));
+                     reflection_cell(wo, d.alpha_x));
 }
 
 template <class D>
 ReflectionMoments reflection_moments(D const& d, Vec3 const& wo) {
     float const alpha = mean_square_alpha(d.alpha_x, d.alpha_y);
     TableCell const a(alpha_coordinate(alpha), alphas);
-    TableCell const c(cosine_coordinate(std::max(wo.z, 0.f), alpha), cosines);
+    TableCell const c = reflection_cell(wo, alpha);
     auto const moment = [&](int i) {
-        return interpolate(Tables<D>::reflection + i * kReflectionPart, cosines, a, c) * kUnit;
+        return interpolate(Tables<D>::reflection + i * kReflectionPart, reflection_cosines, a, c) *
+               kUnit;
     };
     ReflectionMoments m{moment(0), moment(1), moment(2), moment(3), moment(4)};
     if (d.alpha_x != d.alpha_y) {
@@ -97,19 +103,28 @@ ReflectionMoments reflection_moments(D const& d, Vec3 const& wo) {
 }
 
 template <class D>
+float dielectric_reflection(D const& d, Vec3 const& wo, float eta) {
+    if (d.alpha_x == d.alpha_y) return dielectric_albedo(d, wo, eta).reflected;
+    float const alpha = mean_square_alpha(d.alpha_x, d.alpha_y);
+    D const even{alpha, alpha};
+    return dielectric_albedo(even, wo, eta).reflected * white_albedo(d, wo) /
+           white_albedo(even, wo);
+}
+
+template <class D>
 DielectricAlbedo dielectric_albedo(D const& d, Vec3 const& wo, float eta) {
     bool const leaving = eta < 1;
     float const c = std::min(std::max(wo.z, 0.f), 1.f),
                 alpha = alpha_along(d.alpha_x, d.alpha_y, wo);
     TableCell const cell_e(index_coordinate(leaving ? 1 / eta : eta), indices);
-    TableCell const cell_a(alpha_coordinate(alpha), alphas);
+    TableCell const cell_a(alpha_coordinate(alpha), dielectric_alphas);
     TableCell const cell_c(leaving ? leaving_cosine_coordinate(c, eta, alpha)
                                    : fresnel_cosine_coordinate(c, alpha),
                            cosines);
     uint16_t const* const side = Tables<D>::dielectric + (leaving ? 2 * kDielectricPart : 0);
     auto const part = [&](int i) {
-        return interpolate(side + i * kDielectricPart, alphas * cosines, cell_e, cosines, cell_a,
-                           cell_c) *
+        return interpolate(side + i * kDielectricPart, dielectric_alphas * cosines, cell_e, cosines,
+                           cell_a, cell_c) *
                kUnit;
     };
     float const all = power_at(part(0));
@@ -123,6 +138,9 @@ template float white_albedo(AshikhminShirley const&, Vec3 const&);
 template ReflectionMoments reflection_moments(Ggx const&, Vec3 const&);
 template ReflectionMoments reflection_moments(Beckmann const&, Vec3 const&);
 template ReflectionMoments reflection_moments(AshikhminShirley const&, Vec3 const&);
+template float dielectric_reflection(Ggx const&, Vec3 const&, float);
+template float dielectric_reflection(Beckmann const&, Vec3 const&, float);
+template float dielectric_reflection(AshikhminShirley const&, Vec3 const&, float);
 template DielectricAlbedo dielectric_albedo(Ggx const&, Vec3 const&, float);
 template DielectricAlbedo dielectric_albedo(Beckmann const&, Vec3 const&, float);
 template DielectricAlbedo dielectric_albedo(AshikhminShirley const&, Vec3 const&, float);

@@ -3,11 +3,11 @@
 // light that the single-scattering model loses.
 //
 // tools/make_albedo_tables.cpp writes the tables (albedo_tables.h) on the grids declared here.
-// Between nodes they are interpolated linearly. Alphas beyond 1 and indices beyond 4 (or below
-// 1 / 4) are taken at that bound. The white albedo of anisotropic reflection has a table of its
-// own, and scales the other moments, looked up at the root mean square of the alphas. Anisotropic
-// dielectrics are looked up at about the alpha along the view. tests/lobes measures and bounds the
-// errors.
+// Between nodes they are interpolated linearly. Alphas beyond 1 are taken at that
+// bound; every index has its place. The white albedo of anisotropic reflection has a table of its
+// own, and scales the other moments and what dielectrics reflect, looked up at the root mean square
+// of the alphas. Where they transmit, anisotropic dielectrics are looked up at about the alpha
+// along the view. tests/lobes measures and bounds the errors.
 #pragma once
 
 #include <array>
@@ -21,23 +21,28 @@ namespace weft::lobes {
 namespace albedo_grid {
 inline constexpr int cosines = 33; ///< odd: the dielectrics put a node on the critical angle
 inline constexpr int alphas = 15;
-inline constexpr int indices = 13;
+inline constexpr int reflection_cosines = 65;
+inline constexpr int dielectric_alphas = 21;
+inline constexpr int indices = 29;         ///< up to the infinite one
+inline constexpr float least_root = 0.15f; ///< of the contrast (eta - 1) / (eta + 1) at 1.001
 // Anisotropic reflection: the greater alpha, the lesser over the greater, azimuth, cosine.
 inline constexpr int greater_alphas = 10, alpha_ratios = 7, azimuths = 7, anisotropic_cosines = 17;
 inline constexpr int area_alphas = 13, area_slopes = 33; ///< of ashikhmin_shirley_area
-inline constexpr float max_contrast = 0.6f;              ///< (eta - 1) / (eta + 1) at eta = 4
 
 // Each coordinate is in [0, 1], the nodes being equally spaced in it.
 
 inline float alpha_coordinate(float alpha) { return std::sqrt(alpha); }
 inline float alpha_at(float coordinate) { return square(coordinate); }
-/// `ratio` >= 1 is the greater index over the smaller one. The root of the contrast is about
-/// linear in the critical angle's cosine, which sets the scale of all that happens.
+/// `ratio` >= 1 is the greater index over the smaller one. The contrast's root is about linear in
+/// the critical angle's cosine, which sets the scale of all that happens; its fourth root puts more
+/// nodes where the indices nearly match and the critical angle is a grazing one.
 inline float index_coordinate(float ratio) {
-    return std::sqrt((ratio - 1) / ((ratio + 1) * max_contrast));
+    float const contrast = (ratio - 1) / (ratio + 1);
+    return (std::sqrt(std::sqrt(contrast)) - least_root) / (1 - least_root);
 }
+/// The last node stands for all that is beyond 1e4.
 inline float index_at(float coordinate) {
-    float const c = square(coordinate) * max_contrast;
+    float const c = std::min(square(square(lerp(least_root, 1.f, coordinate))), 0.9998f);
     return (1 + c) / (1 - c);
 }
 /// All happens on the scale of alpha near grazing angles: takes [0, 1] onto itself with half of it
@@ -49,7 +54,7 @@ inline float cosine_at(float coordinate, float alpha) {
     float const q = square(coordinate);
     return std::min(alpha * q / (1 + alpha - q), 1.f);
 }
-/// For dielectrics: half of the nodes on the scale of alpha, half on that of Fresnel's equations.
+/// Half of the nodes on the scale of alpha, half on that of Fresnel's equations.
 inline float fresnel_cosine_coordinate(float c, float alpha) {
     return 0.5f * (std::sqrt(c) + cosine_coordinate(c, alpha));
 }
@@ -112,6 +117,10 @@ float white_albedo(Distribution const& distribution, Vec3 const& wo);
 
 template <class Distribution>
 ReflectionMoments reflection_moments(Distribution const& distribution, Vec3 const& wo);
+
+/// What a dielectric reflects, be it stretched or not: `eta` as in MicrofacetDielectric.
+template <class Distribution>
+float dielectric_reflection(Distribution const& distribution, Vec3 const& wo, float eta);
 
 /// Of the untinted dielectric; `eta` as in MicrofacetDielectric.
 template <class Distribution>

@@ -56,7 +56,7 @@ struct MicrofacetReflection {
         // Dielectrics have tables of their own, up to an index beyond which moments say as much.
         auto const* const d = std::get_if<DielectricFresnel>(&fresnel);
         if (d && d->eta <= albedo_grid::index_at(1))
-            return Color(dielectric_albedo(distribution, wo, d->eta).reflected);
+            return Color(dielectric_reflection(distribution, wo, d->eta));
         return rough_reflectance(fresnel, m);
     }
     Color compensation(float white) const {

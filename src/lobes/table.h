@@ -6,12 +6,12 @@
 namespace weft::lobes {
 
 /// Where a coordinate lies on an axis of `nodes` nodes: node `index` and the fraction `t` of the
-/// way to the next. Coordinates outside [0, 1] are taken at the bound.
+/// way to the next. Coordinates outside [0, 1] are taken at the bound, NaN at 0.
 struct TableCell {
     int index;
     float t;
     TableCell(float coordinate, int nodes) {
-        float const x = std::min(std::max(coordinate, 0.f), 1.f) * float(nodes - 1);
+        float const x = std::min(std::max(0.f, coordinate), 1.f) * float(nodes - 1);
         index = std::min(int(x), nodes - 2);
         t = x - float(index);
     }

@@ -7,7 +7,9 @@
 namespace weft::lobes {
 
 struct Transparent {
-    static constexpr LobeFlags flags() { return LobeFlags::Transmission | LobeFlags::Delta; }
+    static constexpr LobeFlags flags() {
+        return LobeFlags::Transmission | LobeFlags::Delta | LobeFlags::Straight;
+    }
     DeltaSample sample(Vec3 const& wo, Vec3 const&) const {
         return {.wi = -wo, .weight = Color(1), .probability = 1};
     }

@@ -105,11 +105,25 @@ template <class T>
 concept SurfaceDefault = std::is_same_v<T, SurfaceUv> || std::is_same_v<T, SurfacePosition> ||
     std::is_same_v<T, SurfaceNormal>;
 
+/// T without contents; zeros for vectors, which leave themselves as they are otherwise.
+template <class T>
+constexpr T blank() {
+    return T{};
+}
+template <>
+constexpr Vec2 blank<Vec2>() {
+    return {0, 0};
+}
+template <>
+constexpr Vec3 blank<Vec3>() {
+    return {0, 0, 0};
+}
+
 /// A parameter that is a constant or, where `texture` is set, what that node gives at the point.
 /// In a compiled program `texture` is the index of a register.
 template <class T>
 struct Input {
-    T value{};
+    T value = blank<T>();
     Id<TextureKind> texture{};
     friend constexpr bool operator==(Input const&, Input const&) = default;
 };

@@ -36,8 +36,7 @@ struct DisneyBuilder {
         auto const [x, y] = stretched_alphas(roughness, anisotropic);
         facets = {x, y};
         if (anisotropic > 0) around = around.turned(2 * kPi * at(m.anisotropic_rotation));
-        film = {at(m.thin_film_thickness), at(m.thin_film_ior),
-                b.view.entering ? b.view.ior_outside : ior};
+        film = {at(m.thin_film_thickness), at(m.thin_film_ior), b.view.ior_outside};
     }
 
     void layer_over(Color const& reflected) { b.weight *= rest_of(reflected); }
@@ -81,7 +80,9 @@ struct DisneyBuilder {
     void add_glass(float share) {
         b.to.ior = ior;
         float const eta = b.relative_ior(ior), below = at(m.transmission_roughness);
-        lobes::BoundaryOptions const options{0, film};
+        lobes::BoundaryOptions options{0, film};
+        // What is opaque has no inside: only glass is seen from within.
+        if (!b.view.entering) options.film.outer_ior = ior;
         if (eta == 1 || (roughness < kSmooth && below < kSmooth)) {
             b.add(Color(share), lobes::SpecularDielectric{eta, specular_tint, base, options});
         } else if (below < 0 || below == roughness) {
@@ -89,10 +90,18 @@ struct DisneyBuilder {
                   lobes::GgxDielectric(facets, eta, specular_tint, base, options, true));
         } else { // two microsurfaces: one is seen, the other is seen through
             float const alpha = alpha_of(below);
+            lobes::Ggx const through{alpha, alpha};
             b.add(Color(share),
                   lobes::GgxDielectric(facets, eta, specular_tint, Color(0), options, true));
-            b.add(Color(share),
-                  lobes::GgxDielectric({alpha, alpha}, eta, Color(0), base, options, true));
+            // Each knows what it keeps for the other, but not how the other scatters.
+            lobes::GgxDielectric const seen(facets, eta, Color(1), Color(0), options, true);
+            lobes::GgxDielectric const lets_pass(through, eta, Color(0), Color(1), options, true);
+            Color const left = rest_of(b.albedo(seen, around)),
+                        wanted = b.albedo(lets_pass, around);
+            auto const fits = [](float l, float w) { return w > l ? l / w : 1.f; };
+            Color const scale(fits(left.r, wanted.r), fits(left.g, wanted.g),
+                              fits(left.b, wanted.b));
+            b.add(share * scale, lobes::GgxDielectric(through, eta, Color(0), base, options, true));
         }
     }
 

@@ -117,7 +117,8 @@ void LobeBuilder::operator()(scene::Microfacet const& m, Values const& at) const
     if (anisotropic > 0) around = around.turned(2 * kPi * at(m.anisotropic_rotation));
     to.bsdf.use_frame(around);
     lobes::ThinFilm const film{at(m.thin_film_thickness), at(m.thin_film_ior),
-                               view.entering ? view.ior_outside : at(m.ior)};
+                               view.entering || m.metal != scene::Metal::none ? view.ior_outside
+                                                                              : at(m.ior)};
     if (roughness < kSmooth || (m.metal == scene::Metal::none && relative_ior(at(m.ior)) == 1)) {
         add_smooth(*this, m, at, film);
         return;

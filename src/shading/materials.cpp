@@ -138,6 +138,16 @@ void Materials::shade(scene::MaterialId id, SurfacePoint const& point, View cons
     to.bsdf.prepare(view.wo);
 }
 
+Color Materials::straight(scene::MaterialId id, SurfacePoint const& point, View const& view) const {
+    Shading shading(lobes::Bsdf(shading_frame(point, point.ns, view), view.ng));
+    LobeBuilder{*this, point, view, shading, shading.bsdf.frame()}.build(id);
+    Color sum(0);
+    for (int i = 0; i < shading.bsdf.size(); ++i)
+        if (std::holds_alternative<lobes::Transparent>(shading.bsdf[i].kind))
+            sum += shading.bsdf[i].weight;
+    return sum;
+}
+
 scene::Input<float> interior_ior(scene::Scene const& scene, scene::MaterialId id) {
     auto const& material = scene.materials[size_t(id.index)];
     if (auto const* d = std::get_if<scene::Dielectric>(&material)) return d->ior;
@@ -162,6 +172,18 @@ bool is_transmissive(scene::Scene const& scene, scene::MaterialId id) {
         return true;
     for (scene::MaterialId part : parts_of(scene, id))
         if (is_transmissive(scene, part)) return true;
+    return false;
+}
+
+bool passes_straight(scene::Scene const& scene, scene::MaterialId id) {
+    auto const& material = scene.materials[size_t(id.index)];
+    if (auto const* m = std::get_if<scene::Transparent>(&material))
+        return may_differ(m->transmittance, Color(0));
+    for (scene::MaterialId part : parts_of(scene, id)) {
+        auto const* disney = std::get_if<scene::Disney>(&scene.materials[size_t(part.index)]);
+        if (passes_straight(scene, part) || (disney && may_differ(disney->opacity, 1.f)))
+            return true;
+    }
     return false;
 }
 

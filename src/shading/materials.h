@@ -58,6 +58,10 @@ class Materials {
     void shade(scene::MaterialId id, SurfacePoint const& point, View const& view,
                Shading& to) const;
 
+    /// The part of light that goes on towards -view.wo as if there were no surface: the weights of
+    /// `Transparent` lobes.
+    Color straight(scene::MaterialId id, SurfacePoint const& point, View const& view) const;
+
     CompiledMaterial const& operator[](scene::MaterialId id) const {
         return compiled_[size_t(id.index)];
     }
@@ -75,6 +79,9 @@ scene::Input<float> interior_ior(scene::Scene const& scene, scene::MaterialId id
 
 /// Whether light goes through into the object's inside.
 bool is_transmissive(scene::Scene const& scene, scene::MaterialId id);
+
+/// Whether parts of it may let light straight through, its opacity as a whole aside.
+bool passes_straight(scene::Scene const& scene, scene::MaterialId id);
 
 /// Whether the material has no surface of its own: rays pass straight on.
 inline bool is_null_boundary(scene::Material const& material) {

@@ -15,7 +15,8 @@ struct FilterContext {
     World const* world;
     uint32_t seed = 0;
     bool passable_only = false, solid = false; ///< of closest hits
-    float visibility = 1;
+    bool secondary = false;                    ///< of shadows: after a bounce that scatters
+    Color visibility{1};
 
     EdgeHits met;
 
@@ -37,13 +38,14 @@ Hit to_hit(RTCFilterFunctionNArguments const* args) {
             RTCHitN_u(args->hit, 1, 0), RTCHitN_v(args->hit, 1, 0)};
 }
 
-float hit_opacity(RTCFilterFunctionNArguments const* args, FilterContext const& context,
-                  Hit const& hit) {
-    Vec3 const ng(RTCHitN_Ng_x(args->hit, 1, 0), RTCHitN_Ng_y(args->hit, 1, 0),
-                  RTCHitN_Ng_z(args->hit, 1, 0));
-    Vec3 const direction(RTCRayN_dir_x(args->ray, 1, 0), RTCRayN_dir_y(args->ray, 1, 0),
-                         RTCRayN_dir_z(args->ray, 1, 0));
-    return context.world->opacity(hit, ng, direction);
+Vec3 hit_normal(RTCFilterFunctionNArguments const* args) {
+    return {RTCHitN_Ng_x(args->hit, 1, 0), RTCHitN_Ng_y(args->hit, 1, 0),
+            RTCHitN_Ng_z(args->hit, 1, 0)};
+}
+
+Vec3 ray_direction(RTCFilterFunctionNArguments const* args) {
+    return {RTCRayN_dir_x(args->ray, 1, 0), RTCRayN_dir_y(args->ray, 1, 0),
+            RTCRayN_dir_z(args->ray, 1, 0)};
 }
 
 /// Closest hit: a surface is there with the probability of its opacity. The decision is a hash of
@@ -61,15 +63,13 @@ void filter_closest(RTCFilterFunctionNArguments const* args) {
         return;
     }
     // A sphere is one primitive that the ray may meet twice.
-    bool const back = RTCHitN_Ng_x(args->hit, 1, 0) * RTCRayN_dir_x(args->ray, 1, 0) +
-                          RTCHitN_Ng_y(args->hit, 1, 0) * RTCRayN_dir_y(args->ray, 1, 0) +
-                          RTCHitN_Ng_z(args->hit, 1, 0) * RTCRayN_dir_z(args->ray, 1, 0) >
-                      0;
+    Vec3 const ng = hit_normal(args), direction = ray_direction(args);
+    bool const back = dot(ng, direction) > 0;
     float const u = context.solid
                         ? 0
                         : to_unit_float(hash_combine(hash_combine(context.seed, hit.object),
                                                      2 * hit.primitive + back));
-    bool const passed = u >= hit_opacity(args, context, hit);
+    bool const passed = u >= context.world->opacity(hit, ng, direction);
     if (passed) args->valid[0] = 0;
     context.met.add(hit, corners, passed);
 }
@@ -82,10 +82,11 @@ void filter_shadow(RTCFilterFunctionNArguments const* args) {
     Object const& o = context.world->object(hit.object);
     Corners const corners = o.kind == ObjectKind::Mesh ? corners_at(hit) : kAllCorners;
     if (!o.is_passable() && !context.repeated(hit, corners)) {
-        context.visibility *= 1 - hit_opacity(args, context, hit);
-        context.met.add(hit, corners, context.visibility > 0);
+        context.visibility *= context.world->transmittance(hit, hit_normal(args),
+                                                           ray_direction(args), context.secondary);
+        context.met.add(hit, corners, !is_black(context.visibility));
     }
-    if (context.visibility > 0) args->valid[0] = 0;
+    if (!is_black(context.visibility)) args->valid[0] = 0;
 }
 
 void throw_on_error(RTCDevice device) {
@@ -157,7 +158,7 @@ RTCScene WorldBuilder::instanced_scene(Object const& object) {
     bool filtered = false;
     for (Object const& o : world_.objects_)
         filtered |= o.instanced && o.kind == object.kind && o.triangles == object.triangles &&
-                    (o.has_alpha || o.is_passable());
+                    o.needs_filter();
     attach(scene, geometry, 0, filtered);
     rtcCommitScene(scene);
     return scene;
@@ -181,10 +182,10 @@ void WorldBuilder::build_kernel_scene(CommitOptions const& options) {
             attach(world_.embree_scene_, instance, id, false);
         } else if (o.kind == ObjectKind::Sphere) {
             attach(world_.embree_scene_, make_sphere(o.to_world.origin, length(o.to_world.x)), id,
-                   o.has_alpha || o.is_passable());
+                   o.needs_filter());
         } else {
             attach(world_.embree_scene_, make_mesh(world_.triangles_[size_t(o.triangles)]), id,
-                   o.has_alpha || o.is_passable());
+                   o.needs_filter());
         }
     }
     rtcCommitScene(world_.embree_scene_);
@@ -221,15 +222,16 @@ Hit World::closest(Ray const& ray, Target target, uint32_t alpha_seed) const {
             query.hit.u, query.hit.v};
 }
 
-float World::visibility(Ray const& ray) const {
+Color World::visibility(Ray const& ray, bool secondary) const {
     if (recorder_) [[unlikely]]
         recorder_->record(ray, true);
     FilterContext context;
     init_context(&context.query);
     context.world = this;
+    context.secondary = secondary;
     RTCRay query = to_kernel(ray);
     embree_occluded(embree_scene_, &context.query, &query);
-    return query.tfar < 0 ? 0 : context.visibility;
+    return query.tfar < 0 ? Color(0) : context.visibility;
 }
 
 World::~World() {

@@ -44,7 +44,9 @@ shading::SurfacePoint World::point_on(Hit const& hit, Vec3 const& local, Vec3 co
         sphere_point(object, normalize(local), point); // what t has lost does not matter then
     else
         mesh_point(object, hit, point);
-    if (use_footprints_) point.footprint = uv_footprint(object, cone, point);
+    // Shadow rays, which have no cone, are to see the same holes.
+    if (use_footprints_ && !object.is_see_through)
+        point.footprint = uv_footprint(object, cone, point);
     if (object.normal_map) apply_normal_map(object, point);
     return point;
 }
@@ -171,6 +173,18 @@ float World::opacity(Hit const& hit, Vec3 const& ng, Vec3 const& direction) cons
     return textures_.opacity(o.opacity, point_on(hit, local, normalize(wo)));
 }
 
+Color World::transmittance(Hit const& hit, Vec3 const& ng, Vec3 const& direction,
+                           bool secondary) const {
+    Object const& o = objects_[hit.object];
+    float const there = o.has_alpha ? opacity(hit, ng, direction) : 1;
+    if (!o.is_see_through || there == 0) return Color(1 - there);
+    Vec3 const local = o.instanced ? ng : o.to_object.vector(ng);
+    Vec3 const wo = normalize(-(o.instanced ? o.to_world.vector(direction) : direction));
+    shading::SurfacePoint const point = point_on(hit, local, wo);
+    return Color(1 - there) +
+           there * materials_.straight(o.material, point, view_of(point, wo, 1, secondary));
+}
+
 Color World::emission(shading::SurfacePoint const& point, Vec3 const& wo) const {
     Object const& o = objects_[point.object];
     if (!o.emission || dot(point.ng, wo) <= 0) return Color(0);
@@ -181,13 +195,17 @@ Color World::emission(shading::SurfacePoint const& point, Vec3 const& wo) const 
     return textures_.radiance(o.emission, sharp);
 }
 
+shading::View World::view_of(shading::SurfacePoint const& point, Vec3 const& wo, float ior_outside,
+                             bool secondary) const {
+    bool const entering = dot(point.ng, wo) > 0;
+    return {wo, entering ? point.ng : -point.ng, entering, ior_outside, secondary};
+}
+
 shading::Shading World::shade(shading::SurfacePoint const& point, Vec3 const& wo,
                               media::MediumStack const& stack, bool secondary) const {
     Object const& o = objects_[point.object];
-    bool const entering = dot(point.ng, wo) > 0;
-    shading::View const view{wo, entering ? point.ng : -point.ng, entering,
-                             o.has_interior ? stack.current_without(point.object).ior : 1,
-                             secondary};
+    shading::View const view =
+        view_of(point, wo, o.has_interior ? stack.current_without(point.object).ior : 1, secondary);
     shading::Shading shading(lobes::Bsdf(shading::shading_frame(point, point.ns, view), view.ng));
     shading.emission = emission(point, wo);
     if (o.material) materials_.shade(o.material, point, view, shading);

@@ -48,6 +48,9 @@ struct Object {
     ObjectKind kind = ObjectKind::Mesh;
     bool instanced = false; ///< hits are in the object's own space
     bool has_alpha = false;
+    /// The material itself lets light straight through in parts. Not where light also goes inside,
+    /// since the medium stack then has a say.
+    bool is_see_through = false;
     bool has_tangents = false; ///< something looks at the direction of growing u
     int32_t triangles = -1;    ///< index of the TriangleData
     scene::MaterialId material;
@@ -65,6 +68,8 @@ struct Object {
 
     /// Whether only the medium stack can say if light passes.
     bool is_passable() const { return is_null || may_be_hidden; }
+    /// Whether rays may go on behind it without a vertex.
+    bool needs_filter() const { return has_alpha || is_see_through || is_passable(); }
     Affine to_world, to_object;
     bool is_rectangle = false;    ///< a mesh of two triangles that lights know as one
     int32_t source_instance = -1; ///< of the scene, for messages
@@ -98,8 +103,9 @@ class World {
     /// For rays that `visibility` is not 0 for.
     Hit intersect_passable(Ray const& ray, uint32_t alpha_seed) const;
     /// The part of light that gets through the surfaces along the ray up to t_max: 0 behind an
-    /// opaque surface, the product of (1 - opacity) elsewhere. Passable boundaries are not seen.
-    float visibility(Ray const& ray) const;
+    /// opaque surface, the product of (1 - opacity) + opacity * (what the material lets straight
+    /// through) elsewhere. Passable boundaries are not seen. `secondary` as for `shade`.
+    Color visibility(Ray const& ray, bool secondary = false) const;
 
     shading::SurfacePoint surface(Ray const& ray, Hit const& hit) const;
     /// Emission and lobes at `point` towards unit `wo`; `secondary`: after a bounce that scatters.
@@ -135,6 +141,9 @@ class World {
     /// Opacity at a hit, seen along `direction`, whose geometric normal, as the kernel has it, is
     /// `ng`.
     float opacity(Hit const& hit, Vec3 const& ng, Vec3 const& direction) const;
+    /// The part of light that goes straight through at a hit, seen likewise.
+    Color transmittance(Hit const& hit, Vec3 const& ng, Vec3 const& direction,
+                        bool secondary) const;
     /// Whether those corners (bits) of a mesh's triangle `a` are corners of triangle `b`, too.
     bool has_corners(uint32_t object, uint32_t a, uint8_t corners, uint32_t b) const;
     /// A point of a mesh at `hit`, or of a sphere in direction `local` from its centre, both in
@@ -151,6 +160,8 @@ class World {
     enum class Target : uint8_t { Surfaces, Passable, Solid };
     Hit closest(Ray const& ray, Target target, uint32_t alpha_seed) const;
 
+    shading::View view_of(shading::SurfacePoint const& point, Vec3 const& wo, float ior_outside,
+                          bool secondary) const;
     void mesh_point(Object const& object, Hit const& hit, shading::SurfacePoint& point) const;
     void sphere_point(Object const& object, Vec3 const& local, shading::SurfacePoint& point) const;
     Vec2 mesh_uv(Object const& object, Hit const& hit) const;

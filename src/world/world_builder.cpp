@@ -127,6 +127,8 @@ void WorldBuilder::add_object(scene::Shape const& shape, int32_t instance, Inher
         auto const& material = scene_.materials[size_t(given.material.index)];
         object.is_null = shading::is_null_boundary(material);
         object.has_interior = shading::is_transmissive(scene_, given.material);
+        object.is_see_through =
+            !object.has_interior && shading::passes_straight(scene_, given.material);
         if (auto const* disney = std::get_if<scene::Disney>(&material)) {
             object.opacity.material = disney->opacity;
             if (!given.emission && scene::emits(*disney))

@@ -179,7 +179,7 @@ TEST(Opacity, OfTenCardsLetsOneOf1024Through) {
         // One shadow ray goes through all of them.
         world::RayRecorder recorder;
         scene.world->record_rays(&recorder);
-        EXPECT_FLOAT_EQ(scene.world->visibility({{0.1f, 0.2f, 0.5f}, {0, 0, 1}}), 1 / 1024.f);
+        EXPECT_FLOAT_EQ(scene.world->visibility({{0.1f, 0.2f, 0.5f}, {0, 0, 1}}).g, 1 / 1024.f);
         integrator::PixelRenderer const renderer(*scene.world, scene.job.integrator,
                                                  scene.job.sampler, 0);
         renderer.sample({1, 1}, 0);

@@ -67,6 +67,14 @@ std::vector<Case> cases(TemporaryFolder const& folder) {
     auto ball = [](std::string const& bsdf, std::string const& more = "") {
         return "<instance><shape type=\"sphere\"/>" + bsdf + more + "</instance>";
     };
+    auto gel = [](std::string const& color, float height, float size,
+                  std::string const& attributes = "") {
+        return "<instance" + attributes +
+               R"(><shape type="rectangle"/><bsdf type="transparent" transmittance=")" + color +
+               "\"/><transform><scale value=\"" + std::to_string(size) +
+               "\"/><rotate axis=\"1,0,0\" angle=\"-80\"/><translate y=\"" +
+               std::to_string(height) + "\"/></transform></instance>";
+    };
     std::string const up = "<translate x=\"1\" y=\"2.2\" z=\"-1\"/>";
     std::string const shear =
         "<matrix value=\"0.8,0.5,0,0, 0,0.7,0.3,0, 0.2,0,-0.9,0, 0,0,0,1\"/>"; // mirrors, too
@@ -166,6 +174,33 @@ std::vector<Case> cases(TemporaryFolder const& folder) {
          kFloor + kBall + dim + sphere_light("<scale value=\"0.8\"/>" + up, rough_glass) +
              R"(<instance priority="1"><shape type="sphere"/>)" + fog +
              R"(<transform><translate x="1.5" y="1.8" z="-1.2"/></transform></instance>)"},
+        {"gels between a lamp and a floor",
+         kFloor + kBall + kRectangleLight + gel("0.9,0.3,0.1", 1.5f, 1)},
+        {"stacked gels under a sky",
+         kFloor + kBall + kRectangleLight + sky + gel("0.9,0.6,0.5", 1.5f, 2) +
+             gel("0.3,0.8,0.9", 2, 2),
+         8000},
+        {"gel with holes over a delta light",
+         kFloor + kBall + R"(<light type="point" position="1,3,-2" power="60,50,40"/>)" +
+             gel("0.9,0.3,0.1", 1.5f, 2, " alpha=\"0.6\"")},
+        {"few vertices under a lamp behind gels of part opacity",
+         kFloor + kBall + kRectangleLight + gel("0.9,0.3,0.1", 1.6f, 2, " alpha=\"0.4\"") +
+             gel("0.3,0.8,0.9", 2, 2),
+         4000, "depth=\"2\""},
+        {"ball of patterned gel in fog",
+         kFloor + kRectangleLight +
+             ball(R"(<bsdf type="transparent"><texture name="transmittance" type="checkerboard"
+                 color0="0.2,0.9,0.4" color1="0.9,0.8,0.1" scale="4,3"/></bsdf>)") +
+             R"(<medium type="homogeneous" absorption="0.02" scatter="0.1,0.15,0.2"/>)"},
+        {"gel mixed with metal, of layers with holes",
+         kFloor + kRectangleLight + dim +
+             ball(
+                 R"(<bsdf type="mix" amount="0.4"><bsdf type="transparent" transmittance="0.9,0.5,0.2"/>
+                 <bsdf type="roughconductor" roughness="0.6"/></bsdf>)") +
+             R"(<instance><shape type="rectangle"/><bsdf type="layered"><layer opacity="0.7">
+               <bsdf type="disney" opacity="0.5" baseColor="0.8,0.3,0.1"/></layer>
+               <layer><bsdf type="coat"><bsdf type="transparent"/></bsdf></layer></bsdf>
+               <transform><rotate axis="1,0,0" angle="-70"/><translate y="1.6"/></transform></instance>)"},
         {"nested rough dielectrics",
          kFloor + kRectangleLight + dim +
              R"(<instance priority="2"><shape type="sphere"/><bsdf type="roughdielectric" roughness="0.4" ior="1.5"/></instance>

@@ -147,7 +147,7 @@ TEST(SelfIntersection, NeverAfterLeavingAConvexObject) {
                         continue; // by rounding
                     Ray const next{shading::offset_origin(point, direction), direction,
                                    float(reach)};
-                    again += bool(world.intersect(next)) || world.visibility(next) < 1;
+                    again += bool(world.intersect(next)) || world.visibility(next).g < 1;
                     ++rays;
                 }
             }
@@ -372,10 +372,10 @@ TEST(Groups, OuterSettingsReplaceThoseOfMembers) {
     EXPECT_FALSE(b.material);
     EXPECT_EQ(c.material.index, d.material.index);
     EXPECT_NE(a.material.index, c.material.index);
-    EXPECT_EQ(a.alpha.value, 1);
-    EXPECT_EQ(b.alpha.value, 0.5f);
-    EXPECT_EQ(c.alpha.value, 0.25f);
-    EXPECT_EQ(d.alpha.value, 0.25f);
+    EXPECT_EQ(a.opacity.instance.value, 1);
+    EXPECT_EQ(b.opacity.instance.value, 0.5f);
+    EXPECT_EQ(c.opacity.instance.value, 0.25f);
+    EXPECT_EQ(d.opacity.instance.value, 0.25f);
     EXPECT_EQ(b.priority, 3);
     EXPECT_EQ(d.priority, 5);
 }
@@ -396,7 +396,7 @@ TEST(Opacity, IsTheFrequencyOfBeingMet) {
     for (auto const& [x, surfaces] : {std::pair(0.f, 2), std::pair(5.f, 2), std::pair(10.f, 1)}) {
         Ray const ray{{x + 0.1f, 0.2f, -5}, {0, 0, 1}};
         double const through = std::pow(0.7, surfaces);
-        EXPECT_NEAR(scene.world->visibility(ray), through, 1e-6);
+        EXPECT_NEAR(scene.world->visibility(ray).g, through, 1e-6);
         int passed = 0;
         for (uint32_t seed = 0; seed < rays; ++seed)
             passed += !scene.world->intersect(ray, hash32(seed));

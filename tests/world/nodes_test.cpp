@@ -132,7 +132,7 @@ TEST(Nodes, OpacityMayDependOnPosition) {
                 if (std::abs(ray.origin.x) < 1e-3f) continue;
                 bool const there = ray.origin.x > 0;
                 EXPECT_EQ(bool(scene.world->intersect(ray, rng.next_uint())), there);
-                EXPECT_EQ(scene.world->visibility(ray), there ? 0.f : 1.f);
+                EXPECT_EQ(scene.world->visibility(ray).g, there ? 0.f : 1.f);
             }
         }
 }

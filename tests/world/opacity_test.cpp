@@ -27,13 +27,13 @@ TEST(Opacity, CountsASharedEdgeOnce) {
         float const s = float(i) / 51;
         for (Vec3 const& from : {Vec3(s, s, -3), Vec3(0, 0, -3)}) {
             Ray const ray{from, normalize(Vec3(s, s, 0) - from)};
-            twice += scene.world->visibility(ray) < 0.5f;
+            twice += scene.world->visibility(ray).g < 0.5f;
             ++rays;
         }
     }
     for (Vec3 const& p : ball.positions) {
         Ray const ray{Vec3(10, 0, 0), p};
-        twice += scene.world->visibility(ray) < 0.5f;
+        twice += scene.world->visibility(ray).g < 0.5f;
         ++rays;
     }
     EXPECT_EQ(twice, 0) << "of " << rays;
@@ -60,7 +60,7 @@ TEST(Opacity, CountsEveryCardOfAStackOnce) {
                 Vec3 const to = Vec3(s, s, 0) + (rng.next3() - Vec3(0.5f)) * 1e-3f;
                 Vec3 const from = Vec3(rng.next() - 0.5f, rng.next() - 0.5f, -3);
                 Ray const ray{from, normalize(to - from)};
-                wrong += scene.world->visibility(ray) != 0x1p-10f;
+                wrong += scene.world->visibility(ray).g != 0x1p-10f;
                 met += bool(scene.world->intersect(ray, rng.next_uint()));
             }
             EXPECT_EQ(wrong, 0) << "of " << rays << " at scale " << scale << ", gap " << gap;
@@ -68,6 +68,54 @@ TEST(Opacity, CountsEveryCardOfAStackOnce) {
                          sigma = std::sqrt(expected * (1 - expected) / rays);
             EXPECT_GE(normal_tail((met / rays - expected) / sigma), sidak(0.01, 4)) << met;
         }
+}
+
+TEST(Visibility, IsTheProductOfWhatGelsLetThrough) {
+    auto const card = [](std::string const& bsdf, float z, std::string const& attributes = "") {
+        return "<instance" + attributes + "><shape type=\"rectangle\"/>" + bsdf +
+               "<transform><translate z=\"" + std::to_string(z) + "\"/></transform></instance>";
+    };
+    auto const gel = [](std::string const& color) {
+        return "<bsdf type=\"transparent\" transmittance=\"" + color + "\"/>";
+    };
+    Ray const ray{{0.3f, 0.2f, -5}, {0, 0, 1}};
+    auto const through = [&](std::string const& contents) {
+        return make_scene(kCamera + contents).world->visibility(ray);
+    };
+    auto const expect = [](Color const& found, Color const& expected, char const* what) {
+        for (int k = 0; k < 3; ++k) EXPECT_NEAR(found[k], expected[k], 1e-6) << what;
+    };
+    std::string const warm = gel("0.8,0.4,0.2"), cold = gel("0.5,0.5,1");
+    expect(through(card(warm, 0)), {0.8f, 0.4f, 0.2f}, "one");
+    expect(through(card(warm, 0) + card(cold, 1)), {0.4f, 0.2f, 0.2f}, "two");
+    expect(through(card(warm, 0, " alpha=\"0.5\"")), {0.9f, 0.7f, 0.6f}, "with opacity");
+    expect(through("<instance><shape type=\"sphere\"/>" + warm + "</instance>"),
+           {0.64f, 0.16f, 0.04f}, "both sides of a ball");
+    expect(through(card(warm, 0) + card("<bsdf type=\"diffuse\"/>", 1)), Color(0), "opaque");
+    expect(through(card(gel("0"), 0)), Color(0), "black");
+    expect(
+        through(card(
+            "<bsdf type=\"mix\" amount=\"0.25\">" + warm + "<bsdf type=\"diffuse\"/></bsdf>", 0)),
+        {0.6f, 0.3f, 0.15f}, "mixed");
+    expect(through(card("<bsdf type=\"layered\"><layer opacity=\"0.5\"><bsdf type=\"disney\" "
+                        "opacity=\"0.6\"/></layer><layer>" +
+                            warm + "</layer></bsdf>",
+                        0)),
+           {0.6f, 0.4f, 0.3f}, "layered");
+    expect(
+        through(card(R"(<bsdf type="transparent"><texture name="transmittance" type="checkerboard"
+               color0="0.2" color1="0.2" scale="4,3"/></bsdf>)",
+                     0)),
+        Color(0.2f), "patterned");
+}
+
+TEST(Visibility, AsksWhatSecondaryRaysSee) {
+    auto const scene =
+        make_scene(kCamera + R"(<instance><shape type="rectangle"/><bsdf type="secondary">
+            <bsdf type="transparent" transmittance="0.5"/><bsdf type="diffuse"/></bsdf></instance>)");
+    Ray const ray{{0.3f, 0.2f, -5}, {0, 0, 1}};
+    EXPECT_EQ(scene.world->visibility(ray, false), Color(0.5f));
+    EXPECT_EQ(scene.world->visibility(ray, true), Color(0));
 }
 
 } // namespace

@@ -1,0 +1,143 @@
+// Lists whose lobes lie around several frames: layers with normals of their own.
+#include <gtest/gtest.h>
+
+#include "tests/lobes/configurations.h"
+#include "tests/lobes/sphere_chi_square.h"
+
+using namespace weft;
+using namespace weft::lobes;
+using namespace weft::lobes::testing;
+
+namespace {
+
+Vec3 const kNg(0, 0, 1);
+
+/// A base, a coat and a sheet that scatters through, each bent by `bend` degrees its own way.
+Bsdf bent(float bend, Vec3 const& wo) {
+    Bsdf bsdf(Frame(at_angle(bend, 30)), kNg);
+    bsdf.add(Color(0.4f, 0.3f, 0.2f), Lambert{});
+    bsdf.use_frame(Frame(at_angle(bend, 200), Vec3(0, 1, 0)));
+    bsdf.add(Color(0.2f, 0.3f, 0.3f), GgxReflection{{0.2f, 0.4f}});
+    bsdf.use_frame(Frame(at_angle(bend, 110)));
+    bsdf.add(Color(0.2f), BeckmannDielectric({0.5f, 0.5f}, 1.5f));
+    bsdf.add(Color(0.1f, 0.2f, 0.1f), DiffuseTransmission{});
+    bsdf.prepare(wo);
+    return bsdf;
+}
+
+TEST(Frames, SamplesFollowTheDensity) {
+    std::vector<SphereTest> tests;
+    for (float const bend : {15.f, 40.f})
+        for (float const angle : {5.f, 45.f}) {
+            Vec3 const wo = at_angle(angle, 80);
+            Bsdf const bsdf = bent(bend, wo);
+            auto const sample = [&](Vec3 const& u) {
+                BsdfSample const s = bsdf.sample(wo, u);
+                return s.pdf > 0 ? s.wi : Vec3(0);
+            };
+            auto const density = [&](Vec3 const& w) { return bsdf.eval(wo, w).pdf; };
+            tests.push_back(SphereChiSquare(sample, density).run(7 + tests.size(), 1 << 16));
+        }
+    double const level = weft::testing::sidak(0.01, 2 * int(tests.size()));
+    for (SphereTest const& t : tests) {
+        EXPECT_GE(t.chi_square.p_value, level)
+            << t.chi_square.statistic << " of " << t.chi_square.dof << t.chi_square.problem;
+        double const sigma = std::sqrt(t.success * (1 - t.success) / (1 << 16));
+        double const beyond = std::max(std::abs(t.integral - t.success) - 1e-3, 0.0);
+        EXPECT_TRUE(beyond == 0 || weft::testing::normal_tail(beyond / sigma) >= level)
+            << t.integral << " " << t.success;
+    }
+}
+
+TEST(Frames, SamplesWeighWhatEvalSays) {
+    Vec3 const wo = at_angle(35, 80);
+    Bsdf const bsdf = bent(40, wo);
+    Rng rng(3);
+    for (int i = 0; i < 2000; ++i) {
+        BsdfSample const s = bsdf.sample(wo, rng.next3());
+        if (!(s.pdf > 0)) continue;
+        LobeValue const v = bsdf.eval(wo, s.wi);
+        EXPECT_EQ(v.pdf, s.pdf);
+        for (int k = 0; k < 3; ++k) EXPECT_NEAR(s.weight[k] * s.pdf, v.f[k], 1e-5f * v.f[k]);
+    }
+}
+
+/// Each list is the sum of its lobes, whatever frames stand between them.
+TEST(Frames, EvalIsTheSumOverFrames) {
+    Vec3 const wo = at_angle(35, 80);
+    Frame const frames[]{Frame(at_angle(30, 30)), Frame(at_angle(40, 200)), Frame(kNg)};
+    Bsdf all(frames[0], kNg);
+    std::vector<Bsdf> alone;
+    for (int i = 0; i < 6; ++i) { // back and forth between them
+        Frame const& frame = frames[size_t(i % 3)];
+        all.use_frame(frame);
+        all.add(Color(0.1f), GgxReflection{{0.3f, 0.3f}});
+        alone.emplace_back(frame, kNg);
+        alone.back().add(Color(0.1f), GgxReflection{{0.3f, 0.3f}});
+    }
+    Rng rng(4);
+    for (int i = 0; i < 1000; ++i) {
+        Vec3 const wi = square_to_sphere(rng.next2());
+        float sum = 0;
+        for (Bsdf const& b : alone) sum += b.eval(wo, wi).f.g;
+        EXPECT_NEAR(all.eval(wo, wi).f.g, sum, 1e-5f * sum);
+    }
+}
+
+/// White lobes around bent frames send all of their power to the right side of the surface.
+TEST(Frames, FoldingKeepsAllPower) {
+    int tests = 0;
+    for (float const bend : {20.f, 60.f})
+        for (float const angle : {0.f, 25.f}) {
+            Vec3 const wo = at_angle(angle, 80);
+            Bsdf bsdf(Frame(at_angle(bend, 30)), kNg);
+            bsdf.add(Color(0.5f), Lambert{});
+            bsdf.use_frame(Frame(at_angle(bend, 200)));
+            bsdf.add(Color(0.3f), OrenNayar(Color(1), 1));
+            bsdf.use_frame(Frame(at_angle(bend, 110)));
+            bsdf.add(Color(0.2f), DiffuseTransmission{});
+            bsdf.prepare(wo);
+            Rng rng(uint64_t(bend + angle) + 1);
+            std::vector<double> sampled, above, below;
+            for (int i = 0; i < 60000; ++i) {
+                BsdfSample const s = bsdf.sample(wo, rng.next3());
+                sampled.push_back(s.pdf > 0 ? double(s.weight.g) : 0);
+                if (s.pdf > 0) {
+                    EXPECT_EQ(any(s.flags, LobeFlags::Transmission), s.wi.z < 0);
+                }
+                Vec3 const wi = square_to_sphere(rng.next2());
+                double const f = double(bsdf.eval(wo, wi).f.g) * 4 * M_PI;
+                above.push_back(wi.z > 0 ? f : 0);
+                below.push_back(wi.z < 0 ? f : 0);
+            }
+            auto const expect = [&](std::vector<double> const& values, double power) {
+                auto const e = weft::testing::estimate(values);
+                EXPECT_GE(weft::testing::normal_tail((e.mean - power) / std::sqrt(e.variance)),
+                          weft::testing::sidak(0.01, 12))
+                    << e.mean << " instead of " << power << " at " << bend << ", " << angle;
+                ++tests;
+            };
+            expect(sampled, 1);
+            expect(above, 0.8);
+            expect(below, 0.2);
+        }
+    EXPECT_EQ(tests, 12); // what the correction assumes
+}
+
+TEST(Frames, BeyondCapacityTheLastOneServes) {
+    Bsdf bsdf(Frame(kNg), kNg);
+    bsdf.add(Color(0.1f), Lambert{});
+    for (int i = 1; i < 20; ++i) {
+        bsdf.use_frame(Frame(at_angle(float(i), 0)));
+        EXPECT_TRUE(bsdf.add(Color(0.1f), Lambert{}));
+    }
+    for (int i = 0; i < bsdf.size(); ++i)
+        EXPECT_EQ(int(bsdf[i].frame), std::min(i, Bsdf::frame_capacity - 1));
+    bsdf.use_frame(Frame(kNg)); // known ones are found again
+    bsdf.add(Color(0.1f), Lambert{});
+    EXPECT_EQ(bsdf[bsdf.size() - 1].frame, 0);
+    bsdf.prepare(kNg);
+    EXPECT_GT(bsdf.sample(kNg, Vec3(0.5f)).pdf, 0);
+}
+
+} // namespace
