@@ -41,8 +41,8 @@ X
 sed 's|<bsdf type="diffuse" albedo="0.5"/>|<bsdf type="layered"><layer opacity="0.4">\
 <bsdf type="microfacet" ior="1.3" reflectionIor="2"/></layer></bsdf>|' s.xml >odd.xml
 expect 0 "$weft" info odd.xml
-has "odd.xml:10:1: reflectionIor 2 and ior 1.3 would give out up to" out
-has "odd.xml:9:41: the last <layer> has opacity 0.4: what it does not cover is black" out
+has "odd.xml:11:1: reflectionIor 2 and ior 1.3 would give out up to" out
+has "odd.xml:10:37: the last <layer> has opacity 0.4: what it does not cover is black" out
 sed 's|reflectionIor="2"|reflectionIor="1.31"|; s|opacity="0.4"|opacity="1"|' odd.xml >even.xml
 expect 0 "$weft" info even.xml
 if grep -q warning out; then fail "a warning about even.xml"; fi
