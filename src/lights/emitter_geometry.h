@@ -6,7 +6,7 @@
 //   sample(ref, u)                 a point on the surface with its solid-angle density at ref
 //   pdf(ref, p, n, primitive)      that density for a point found otherwise (for MIS); p lies on
 //                                  the surface, n is its unit front normal
-//   area(), centre()               world-space area; centre of the bounds
+//   area(), centre(), box()        world-space area; the box around it and its centre
 // and `sample(...).pdf` is `pdf` at the sampled point, up to rounding. A point is sampled whether
 // or not its front faces ref, since the caller may let both sides emit.
 //
@@ -33,6 +33,10 @@ struct EmitterSample {
     uint32_t primitive = 0; ///< triangle of a mesh; 0 for the other kinds
 };
 
+struct Box {
+    Vec3 low, high; ///< corners
+};
+
 /// The image of the square [-1, 1]^2 x {0} with normal +z and uv = (xy + 1) / 2.
 ///
 /// The front is the side that the transformed normal A^-T z points to, also where A mirrors.
@@ -47,6 +51,7 @@ class RectangleEmitter {
     float pdf(Vec3 const& ref, Vec3 const& p, Vec3 const& n, uint32_t primitive = 0) const;
     float area() const { return area_; }
     Vec3 centre() const { return Vec3(corner_ + (edge_x_ + edge_y_) * 0.5); }
+    Box box() const;
     Vec3 normal() const { return Vec3(normal_); }
     /// Steradians at `ref`, either side. Of rectangles only: NaN for other parallelograms.
     float solid_angle(Vec3 const& ref) const;
@@ -83,6 +88,7 @@ class SphereEmitter {
     float pdf(Vec3 const& ref, Vec3 const& p, Vec3 const& n, uint32_t primitive = 0) const;
     float area() const { return area_; }
     Vec3 centre() const { return to_world_.origin; }
+    Box box() const;
 
   private:
     struct View;
@@ -111,16 +117,26 @@ class MeshEmitter {
     EmitterSample sample(Vec3 const& ref, Vec2 u) const;
     float pdf(Vec3 const& ref, Vec3 const& p, Vec3 const& n, uint32_t primitive) const;
     float area() const { return area_; }
-    Vec3 centre() const { return centre_; }
+    Vec3 centre() const { return (box_.low + box_.high) * 0.5f; }
+    Box box() const { return box_; }
+    struct NormalCone {
+        Vec3 axis{0, 0, 1}; ///< unit
+        float theta = kPi;  ///< radians in [0, pi]
+    };
+    /// Around the normals on the front of all triangles that are no lines.
+    NormalCone normals() const;
 
   private:
     Vec3 twice_area_normal(uint32_t primitive) const;
+    float side(uint32_t primitive) const {
+        return !turned_.empty() && turned_[primitive] ? -side_ : side_;
+    }
 
     std::vector<Vec3> positions_;
     std::vector<Triangle> triangles_;
     std::vector<Vec2> uvs_; ///< per position, or empty
     Distribution1D by_area_;
-    Vec3 centre_{0, 0, 0};
+    Box box_{Vec3(0), Vec3(0)};
     float area_ = 0;
     float side_;               ///< +1, or -1 where flipped
     std::vector<bool> turned_; ///< per triangle, or empty

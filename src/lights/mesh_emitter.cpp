@@ -24,13 +24,28 @@ MeshEmitter::MeshEmitter(std::vector<Vec3> positions, std::vector<Triangle> tria
     }
     by_area_ = Distribution1D(areas);
     area_ = by_area_.total();
-    centre_ = (low + high) * 0.5f;
+    box_ = {low, high};
 }
 
 Vec3 MeshEmitter::twice_area_normal(uint32_t primitive) const {
     Triangle const& t = triangles_[primitive];
     Vec3 const& a = positions_[t[0]];
     return cross(positions_[t[1]] - a, positions_[t[2]] - a);
+}
+
+MeshEmitter::NormalCone MeshEmitter::normals() const {
+    Vec3 sum(0);
+    for (uint32_t i = 0; i < triangles_.size(); ++i) sum += twice_area_normal(i) * side(i);
+    NormalCone cone;
+    if (!(length(sum) > 1e-3f * area_)) return cone; // closed, or nearly so
+    cone = {normalize(sum), 0};
+    for (uint32_t i = 0; i < triangles_.size(); ++i) {
+        Vec3 const n = twice_area_normal(i) * side(i);
+        if (!(length_squared(n) > 0)) continue;
+        cone.theta =
+            std::max(cone.theta, std::atan2(length(cross(cone.axis, n)), dot(cone.axis, n)));
+    }
+    return cone;
 }
 
 EmitterSample MeshEmitter::sample(Vec3 const& ref, Vec2 u) const {
@@ -43,8 +58,7 @@ EmitterSample MeshEmitter::sample(Vec3 const& ref, Vec2 u) const {
     Vec2 const b = square_to_triangle({choice.u, u.y});
     s.p = a + e1 * b.x + e2 * b.y;
     float const twice_area = length(c);
-    bool const turned = !turned_.empty() && turned_[choice.index];
-    s.n = c * ((turned ? -side_ : side_) / twice_area);
+    s.n = c * (side(choice.index) / twice_area);
     s.primitive = choice.index;
     s.uv = uvs_.empty() ? b : uvs_[t[0]] * (1 - b.x - b.y) + uvs_[t[1]] * b.x + uvs_[t[2]] * b.y;
     Vec3 const d = s.p - ref;

@@ -102,6 +102,11 @@ RectangleEmitter::RectangleEmitter(Affine const& to_world) {
     is_rectangle_ = std::abs(dot(axis_x_, axis_y_)) < 1e-5;
 }
 
+Box RectangleEmitter::box() const {
+    Vec3 const centre = this->centre(), reach = (abs(Vec3(edge_x_)) + abs(Vec3(edge_y_))) * 0.5f;
+    return {centre - reach, centre + reach};
+}
+
 RectangleEmitter::View RectangleEmitter::view(Vec3d const& to_corner) const {
     View v;
     v.x0 = dot(to_corner, axis_x_);

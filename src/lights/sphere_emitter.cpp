@@ -43,6 +43,14 @@ SphereEmitter::SphereEmitter(Affine const& to_world)
     area_ = float(ellipsoid_area(Affined(to_world)));
 }
 
+Box SphereEmitter::box() const {
+    Affine const& m = to_world_;
+    // Along an axis the farthest image of a unit vector is the length of the matrix's row.
+    Vec3 const reach(length(Vec3(m.x.x, m.y.x, m.z.x)), length(Vec3(m.x.y, m.y.y, m.z.y)),
+                     length(Vec3(m.x.z, m.y.z, m.z.z)));
+    return {m.origin - reach, m.origin + reach};
+}
+
 SphereEmitter::View SphereEmitter::view(Vec3 const& ref) const {
     View v;
     v.ref = to_local_exact_.vector(Vec3d(ref) - Vec3d(to_world_.origin));

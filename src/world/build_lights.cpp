@@ -77,7 +77,8 @@ float WorldBuilder::mean_luminance(AreaLight const& light) const {
     return float(sum / (n * n));
 }
 
-void WorldBuilder::add_area_lights(std::vector<Light>& lights, std::vector<float>& weights) {
+void WorldBuilder::add_area_lights(std::vector<Light>& lights,
+                                   std::vector<lights::LightBounds>& bounds) {
     for (auto const& [index, weight] : area_objects_) {
         Object& object = world_.objects_[index];
         auto make = [&]() -> lights::Emitter {
@@ -103,7 +104,8 @@ void WorldBuilder::add_area_lights(std::vector<Light>& lights, std::vector<float
         float const area = match(light.emitter, [](auto const& e) { return e.area(); });
         light.extent = std::sqrt(area);
         object.light = int32_t(lights.size());
-        weights.push_back(weight * kPi * area * mean_luminance(light));
+        bounds.push_back(match(light.emitter, [](auto const& e) { return lights::bounds_of(e); }));
+        bounds.back().power = weight * kPi * area * mean_luminance(light);
         lights.emplace_back(std::move(light));
     }
 }
@@ -117,54 +119,57 @@ void WorldBuilder::prepare_environment(scene::EnvironmentLight const& light,
 }
 
 void WorldBuilder::build_lights() {
-    RTCBounds bounds;
-    rtcGetSceneBounds(world_.embree_scene_, &bounds);
-    Vec3 const extent(bounds.upper_x - bounds.lower_x, bounds.upper_y - bounds.lower_y,
-                      bounds.upper_z - bounds.lower_z);
+    RTCBounds box;
+    rtcGetSceneBounds(world_.embree_scene_, &box);
+    Vec3 const extent(box.upper_x - box.lower_x, box.upper_y - box.lower_y,
+                      box.upper_z - box.lower_z);
     float const radius = is_finite(extent) && extent.x >= 0 ? 0.5f * length(extent) : 1;
     float const cross_section = kPi * square(std::max(radius, 1e-6f));
 
     std::vector<Light> lights;
-    std::vector<float> weights;
-    auto add = [&](Light light, float weight, float power) {
+    std::vector<lights::LightBounds> bounds;
+    lights::LightBounds far_away;
+    far_away.at_infinity = true;
+    auto add = [&](Light light, lights::LightBounds where, float power) {
         lights.push_back(std::move(light));
-        weights.push_back(weight * power);
+        bounds.push_back(where);
+        bounds.back().power = power;
     };
     for (scene::LightId id : scene_.contents.lights) {
-        std::visit(Overloaded{
-                       [&](scene::PointLight const& l) {
-                           add(lights::PointLight{l.position, l.power / (4 * kPi)}, l.weight,
-                               luminance(l.power));
-                       },
-                       [&](scene::DirectionalLight const& l) {
-                           add(lights::DirectionalLight{normalize(l.direction), l.intensity},
-                               l.weight, cross_section * luminance(l.intensity));
-                       },
-                       [&](scene::SpotLight const& l) {
-                           lights::SpotLight spot{l.position, normalize(l.direction), l.intensity,
-                                                  radians(l.angle), radians(l.falloff)};
-                           add(spot, l.weight, luminance(spot.power()));
-                       },
-                       [&](scene::EnvironmentLight const& l) {
-                           prepare_environment(l, scene_.light_locations[size_t(id.index)]);
-                           Affine const to_world = rotation_of(l.transform);
-                           Vec2i const size = l.texture.texture
-                                                  ? world_.textures_.resolution(l.texture.texture)
-                                                  : Vec2i(1, 1);
-                           auto const cells = environment_cells(world_.textures_, l.texture, size);
-                           lights::EnvironmentSampler sampler(cells, uint32_t(size.x),
-                                                              uint32_t(size.y));
-                           float const power = cross_section * sampler.total();
-                           add(EnvironmentLight{l.texture, to_world, to_world.inverse(),
-                                                std::move(sampler)},
-                               l.weight, power);
-                       },
-                       [](scene::AreaLight const&) {},
-                   },
-                   scene_.lights[size_t(id.index)]);
+        std::visit(
+            Overloaded{
+                [&](scene::PointLight const& l) {
+                    lights::PointLight const point{l.position, l.power / (4 * kPi)};
+                    add(point, lights::bounds_of(point), l.weight * luminance(l.power));
+                },
+                [&](scene::DirectionalLight const& l) {
+                    add(lights::DirectionalLight{normalize(l.direction), l.intensity}, far_away,
+                        l.weight * (cross_section * luminance(l.intensity)));
+                },
+                [&](scene::SpotLight const& l) {
+                    lights::SpotLight const spot{l.position, normalize(l.direction), l.intensity,
+                                                 radians(l.angle), radians(l.falloff)};
+                    add(spot, lights::bounds_of(spot), l.weight * luminance(spot.power()));
+                },
+                [&](scene::EnvironmentLight const& l) {
+                    prepare_environment(l, scene_.light_locations[size_t(id.index)]);
+                    Affine const to_world = rotation_of(l.transform);
+                    Vec2i const size = l.texture.texture
+                                           ? world_.textures_.resolution(l.texture.texture)
+                                           : Vec2i(1, 1);
+                    auto const cells = environment_cells(world_.textures_, l.texture, size);
+                    lights::EnvironmentSampler sampler(cells, uint32_t(size.x), uint32_t(size.y));
+                    float const power = l.weight * (cross_section * sampler.total());
+                    add(EnvironmentLight{l.texture, to_world, to_world.inverse(),
+                                         std::move(sampler)},
+                        far_away, power);
+                },
+                [](scene::AreaLight const&) {},
+            },
+            scene_.lights[size_t(id.index)]);
     }
-    add_area_lights(lights, weights);
-    world_.lights_ = LightTable(std::move(lights), weights, world_);
+    add_area_lights(lights, bounds);
+    world_.lights_ = LightTable(std::move(lights), bounds, world_);
 }
 
 } // namespace weft::world

@@ -4,10 +4,9 @@
 
 namespace weft::world {
 
-LightTable::LightTable(std::vector<Light> lights, std::span<float const> weights,
+LightTable::LightTable(std::vector<Light> lights, std::span<lights::LightBounds const> bounds,
                        World const& world)
-    : lights_(std::move(lights)), world_(&world), textures_(&world.textures()) {
-    if (!lights_.empty()) choice_ = lights::LightChoice(weights);
+    : lights_(std::move(lights)), tree_(bounds), world_(&world), textures_(&world.textures()) {
     for (size_t i = 0; i < lights_.size(); ++i)
         if (std::holds_alternative<EnvironmentLight>(lights_[i]))
             environments_.push_back(int32_t(i));
@@ -74,7 +73,7 @@ LightSample LightTable::sample_light(EnvironmentLight const& l, Vec3 const&, Vec
 }
 
 LightSample LightTable::sample(Vec3 const& ref, Vec3 const& n, Vec3 const& u) const {
-    auto const choice = choice_.choose(ref, n, u.z);
+    auto const choice = tree_.choose(ref, n, u.z);
     if (!(choice.probability > 0)) return {};
     LightSample sample = match(lights_[choice.index], [&](auto const& l) {
         return sample_light(l, ref, {u.x, u.y});
@@ -87,7 +86,7 @@ LightSample LightTable::sample(Vec3 const& ref, Vec3 const& n, Vec3 const& u) co
 float LightTable::pdf(int32_t light, Vec3 const& ref, Vec3 const& n,
                       shading::SurfacePoint const& point) const {
     auto const& area = std::get<AreaLight>(lights_[size_t(light)]);
-    float const choice = choice_.probability(ref, n, uint32_t(light));
+    float const choice = tree_.probability(ref, n, uint32_t(light));
     if (choice == 0) return 0;
     return choice * match(area.emitter, [&](auto const& e) {
                return e.pdf(ref, point.p, point.ng, point.primitive);

@@ -8,7 +8,7 @@
 #include "lights/delta_lights.h"
 #include "lights/emitter_geometry.h"
 #include "lights/environment.h"
-#include "lights/light_choice.h"
+#include "lights/light_tree.h"
 #include "scene/scene.h"
 #include "shading/textures.h"
 
@@ -50,13 +50,14 @@ struct LightSample {
 class LightTable {
   public:
     LightTable() = default;
-    /// `weights`: one per light, its power times the user's weight.
+    /// `bounds`: one per light, its power times the user's weight.
     /// `world`: whose lights they are; outlives the table.
-    LightTable(std::vector<Light> lights, std::span<float const> weights, World const& world);
+    LightTable(std::vector<Light> lights, std::span<lights::LightBounds const> bounds,
+               World const& world);
 
     size_t size() const { return lights_.size(); }
     /// Whether no light is ever sampled.
-    bool empty() const { return choice_.empty(); }
+    bool empty() const { return tree_.empty(); }
     /// A light and a point on it, to illuminate `ref` with normal `n` (0 in a medium).
     /// u.xy places the point, u.z chooses the light.
     LightSample sample(Vec3 const& ref, Vec3 const& n, Vec3 const& u) const;
@@ -73,7 +74,7 @@ class LightTable {
             Vec3 const local = normalize(light.to_map.vector(d));
             Color const radiance =
                 textures_->radiance(light.texture, lights::direction_to_uv(local));
-            f(i, radiance, choice_.probability(ref, n, uint32_t(i)) * light.sampler.pdf(local));
+            f(i, radiance, tree_.probability(ref, n, uint32_t(i)) * light.sampler.pdf(local));
         }
     }
 
@@ -86,7 +87,7 @@ class LightTable {
 
     std::vector<Light> lights_;
     std::vector<int32_t> environments_;
-    lights::LightChoice choice_;
+    lights::LightTree tree_;
     World const* world_ = nullptr;
     shading::Textures const* textures_ = nullptr; ///< of the world
 };

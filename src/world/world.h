@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "lights/light_choice.h"
 #include "media/medium.h"
 #include "media/medium_stack.h"
 #include "scene/scene.h"

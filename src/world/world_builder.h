@@ -54,7 +54,7 @@ class WorldBuilder {
     /// Radiance averaged over the surface, roughly, for judging a light's power.
     float mean_luminance(AreaLight const& light) const;
     void prepare_environment(scene::EnvironmentLight const& light, SourceLocation const& where);
-    void add_area_lights(std::vector<Light>& lights, std::vector<float>& weights);
+    void add_area_lights(std::vector<Light>& lights, std::vector<lights::LightBounds>& bounds);
     void count();
 
     World& world_;

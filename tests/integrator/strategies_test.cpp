@@ -3,6 +3,7 @@
 // ray can meet they differ in their seeds alone.
 #include <gtest/gtest.h>
 
+#include "base/hash.h"
 #include "tests/support/scenes.h"
 
 namespace weft::integrator {
@@ -38,6 +39,38 @@ void write_sky(std::string const& path) {
     for (int c = 0; c < 3; ++c) sky.at(5, 6, c) = 40;
     for (int c = 0; c < 3; ++c) sky.at(11, 5, c) = 20 - 5 * float(c);
     image::write_exr(path, sky);
+}
+
+/// Small lights of all kinds, in all directions, from the floor up; `ball.ply` is in the folder.
+std::string many_lights(int count) {
+    Rng rng(77);
+    auto number = [&](float low, float high) {
+        return std::to_string(lerp(low, high, rng.next()));
+    };
+    auto vector = [&](float low, float high) {
+        std::string const x = number(low, high), y = number(low, high);
+        return x + "," + y + "," + number(low, high);
+    };
+    char const* const shapes[]{R"(type="rectangle")", R"(type="sphere")",
+                               R"(type="mesh" filename="ball.ply")"};
+    std::string text;
+    for (int i = 0; i < count; ++i) {
+        std::string const x = number(-3, 3), y = number(-0.8f, 3);
+        std::string const at = x + "," + y + "," + number(-3, 3);
+        if (i % 5 == 3) {
+            text += "<light type=\"point\" position=\"" + at + "\" power=\"2,3,4\"/>";
+        } else if (i % 5 == 4) {
+            text += "<light type=\"spot\" position=\"" + at + "\" direction=\"" + vector(-1, 1) +
+                    "\" angle=\"" + number(10, 200) + "\" falloff=\"40\" intensity=\"0.5\"/>";
+        } else {
+            text += "<light type=\"area\"><instance><shape " + std::string(shapes[i % 5]) +
+                    "/><emission type=\"lambertian\" emission=\"" + vector(1, 20) +
+                    "\"/><transform><scale value=\"" + number(0.03f, 0.2f) + "\"/><rotate axis=\"" +
+                    vector(-1, 1) + "\" angle=\"" + number(0, 360) + "\"/><translate value=\"" +
+                    at + "\"/></transform></instance></light>";
+        }
+    }
+    return text;
 }
 
 std::vector<Case> cases(TemporaryFolder const& folder) {
@@ -95,6 +128,10 @@ std::vector<Case> cases(TemporaryFolder const& folder) {
         {"two area lights and a dim sky",
          kFloor + kBall + dim + kRectangleLight +
              sphere_light("<scale value=\"0.6\"/><translate x=\"-2\" y=\"0.5\" z=\"-1\"/>")},
+        {"many lights", kFloor + kBall + many_lights(60)},
+        {"many lights and a sky in fog",
+         kFloor + kBall + many_lights(30) + dim +
+             R"(<medium type="homogeneous" absorption="0.02" scatter="0.1,0.15,0.2" phase="0.3"/>)"},
         {"constant sky", kFloor + kBall + dim},
         {"sky with bright spots", kFloor + kBall + sky, 8000},
         {"sky over rough metal",

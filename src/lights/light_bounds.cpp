@@ -1,0 +1,108 @@
+#include "lights/light_bounds.h"
+
+namespace weft::lights {
+
+namespace {
+
+Vec3 min(Vec3 const& a, Vec3 const& b) {
+    return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
+}
+Vec3 max(Vec3 const& a, Vec3 const& b) {
+    return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
+}
+
+float angle_between(Vec3 const& a, Vec3 const& b) {
+    return std::atan2(length(cross(a, b)), dot(a, b));
+}
+
+/// The axis and theta_o of a cone around both cones of normals.
+void unite_normals(LightBounds& a, LightBounds const& b) {
+    float const apart = angle_between(a.axis, b.axis);
+    if (std::min(apart + b.theta_o, kPi) <= a.theta_o) return;
+    if (std::min(apart + a.theta_o, kPi) <= b.theta_o) {
+        a.axis = b.axis;
+        a.theta_o = b.theta_o;
+        return;
+    }
+    float const theta = 0.5f * (a.theta_o + apart + b.theta_o);
+    Vec3 const aside = b.axis - a.axis * dot(a.axis, b.axis);
+    float const aside_length = length(aside);
+    if (theta >= kPi || !(aside_length > 1e-4f)) {
+        a.theta_o = std::min(kPi, a.theta_o + apart + b.theta_o);
+        return;
+    }
+    float const turn = theta - a.theta_o;
+    a.axis = normalize(a.axis * std::cos(turn) + aside * (std::sin(turn) / aside_length));
+    a.theta_o = theta;
+}
+
+} // namespace
+
+LightBounds bounds_of(PointLight const& light) { return {light.position, light.position}; }
+
+LightBounds bounds_of(SpotLight const& light) {
+    LightBounds b{light.position, light.position, light.axis};
+    float const bright = std::min(0.5f * light.angle, kPi);
+    float const end = std::min(0.5f * (light.angle + light.falloff), kPi);
+    // Past 90 degrees the linear falloff stays above the cosine.
+    b.theta_o = std::max(bright, end - kPi / 2);
+    b.theta_e = end - b.theta_o;
+    return b;
+}
+
+LightBounds bounds_of(RectangleEmitter const& emitter) {
+    auto const [low, high] = emitter.box();
+    return {low, high, emitter.normal(), 0};
+}
+
+LightBounds bounds_of(SphereEmitter const& emitter) {
+    auto const [low, high] = emitter.box();
+    return {low, high};
+}
+
+LightBounds bounds_of(MeshEmitter const& emitter) {
+    auto const [low, high] = emitter.box();
+    auto const [axis, theta] = emitter.normals();
+    return {low, high, axis, theta};
+}
+
+LightBounds unite(LightBounds const& a, LightBounds const& b) {
+    LightBounds both = a;
+    both.low = min(a.low, b.low);
+    both.high = max(a.high, b.high);
+    both.theta_e = std::max(a.theta_e, b.theta_e);
+    both.power = a.power + b.power;
+    unite_normals(both, b);
+    return both;
+}
+
+LightBounds unite(std::span<LightBounds const> all) {
+    LightBounds u = all[0];
+    double power = 0;
+    Vec3 axes(0);
+    for (LightBounds const& b : all) {
+        u.low = min(u.low, b.low);
+        u.high = max(u.high, b.high);
+        u.theta_o = std::max(u.theta_o, b.theta_o);
+        u.theta_e = std::max(u.theta_e, b.theta_e);
+        power += double(b.power);
+        axes += b.axis;
+    }
+    u.power = float(power);
+    if (all.size() == 1 || u.theta_o >= kPi) return u;
+    // Axes that cancel have no mean: one of them will do, and the cone will be wide.
+    if (length(axes) > 1e-3f * float(all.size())) u.axis = normalize(axes);
+    for (LightBounds const& b : all)
+        u.theta_o = std::max(u.theta_o, angle_between(u.axis, b.axis) + b.theta_o);
+    u.theta_o = std::min(u.theta_o, kPi);
+    return u;
+}
+
+float orientation_measure(LightBounds const& bounds) {
+    float const o = bounds.theta_o, w = std::min(o + bounds.theta_e, kPi);
+    // As a sum of positive terms, which narrow cones need to keep their digits.
+    return kPi *
+           (4 * square(std::sin(0.5f * o)) + (w - o) * std::sin(o) + std::sin(w - o) * std::sin(w));
+}
+
+} // namespace weft::lights
