@@ -112,7 +112,7 @@ struct Disney {
           {.min = 0, .max = 1, .help = "Roughness of that layer: new lacquer 0.03, worn 0.2."});
         f("clearcoatIor", clearcoat_ior,
           {.min = 1,
-           .max = 4,
+           .max = 3,
            .help = "Index of refraction of that layer: water 1.33, lacquer 1.5."});
         f("clearcoatTint", clearcoat_tint,
           {.min = 0,

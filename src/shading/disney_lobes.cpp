@@ -56,7 +56,7 @@ struct DisneyBuilder {
         Vec3 const normal = at(m.clearcoat_normal);
         Frame const coat = b.frame_around(normal == Vec3(0) ? at(m.normal) : normal);
         b.to.bsdf.use_frame(coat);
-        float const coat_ior = std::clamp(at(m.clearcoat_ior), 1.f, 3.f);
+        float const coat_ior = at(m.clearcoat_ior);
         lobes::Clearcoat const lobe(std::min(alpha_of(at(m.clearcoat_roughness)), 0.5f), coat_ior);
         b.add(Color(clearcoat), lobe);
         layer_over(clearcoat * b.albedo(lobe, coat));
