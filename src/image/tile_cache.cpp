@@ -17,7 +17,9 @@ TileCache::TileCache() : cache_(OIIO::ImageCache::create(false)) {
 TileCache::~TileCache() { OIIO::ImageCache::destroy(cache_); }
 
 void TileCache::limit(uint64_t bytes) {
-    cache_->attribute("max_memory_MB", std::max(1.f, float(double(bytes) / (1 << 20))));
+    // OpenImageIO counts texels; open files and what holds the tiles came to an eighth more.
+    double const texels = double(bytes) * 7 / 8;
+    cache_->attribute("max_memory_MB", std::max(1.f, float(texels / (1 << 20))));
 }
 
 uint64_t TileCache::bytes_read() const {

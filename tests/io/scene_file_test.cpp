@@ -1,6 +1,7 @@
 // What a scene file means: spellings, references, includes, transforms, overrides, jobs.
 #include "base/match.h"
 #include "io/scene_file.h"
+#include "io/xml_document.h"
 
 #include <gtest/gtest.h>
 
@@ -157,6 +158,11 @@ TEST(SceneFile, LongTextsAreCutInMessages) {
                                          std::string(100000, 'x') + "'/></scene>");
     EXPECT_LT(message.size(), 400u);
     EXPECT_NE(message.find("xxx...'"), std::string::npos);
+}
+
+TEST(SceneFile, LongTextsOfNoCharactersAreCutInMessages) {
+    // Bytes that only go on with a character, and none that begins one.
+    EXPECT_EQ(io::in_quotes(std::string(300, char(0x98))).size(), 196 + 5);
 }
 
 TEST(SceneFile, MessagesAreOneLine) {
