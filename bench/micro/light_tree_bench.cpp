@@ -41,25 +41,26 @@ std::vector<Query> queries(int64_t count) {
     return made;
 }
 
-void light_tree_choose(benchmark::State& state) {
+/// Asks a tree of as many lights as the benchmark says.
+template <class Ask>
+void time_queries(benchmark::State& state, Ask const& ask) {
     lights::LightTree const tree = tree_of(state.range(0));
     auto const made = queries(state.range(0));
     size_t i = 0;
-    for (auto _ : state) {
-        Query const& q = made[i++ % made.size()];
-        benchmark::DoNotOptimize(tree.choose(q.ref, q.normal, q.u));
-    }
+    for (auto _ : state) benchmark::DoNotOptimize(ask(tree, made[i++ % made.size()]));
+}
+
+void light_tree_choose(benchmark::State& state) {
+    time_queries(state, [](lights::LightTree const& tree, Query const& q) {
+        return tree.choose(q.ref, q.normal, q.u);
+    });
 }
 BENCHMARK(light_tree_choose)->DenseRange(1, 4)->RangeMultiplier(10)->Range(10, 100'000);
 
 void light_tree_probability(benchmark::State& state) {
-    lights::LightTree const tree = tree_of(state.range(0));
-    auto const made = queries(state.range(0));
-    size_t i = 0;
-    for (auto _ : state) {
-        Query const& q = made[i++ % made.size()];
-        benchmark::DoNotOptimize(tree.probability(q.ref, q.normal, q.light));
-    }
+    time_queries(state, [](lights::LightTree const& tree, Query const& q) {
+        return tree.probability(q.ref, q.normal, q.light);
+    });
 }
 BENCHMARK(light_tree_probability)->DenseRange(1, 4)->RangeMultiplier(10)->Range(10, 100'000);
 

@@ -36,6 +36,15 @@ struct Color {
 constexpr float luminance(Color const& c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
 constexpr float max_component(Color const& c) { return std::max(c.r, std::max(c.g, c.b)); }
 constexpr float min_component(Color const& c) { return std::min(c.r, std::min(c.g, c.b)); }
+constexpr Color max(Color const& c, float least) {
+    return {std::max(c.r, least), std::max(c.g, least), std::max(c.b, least)};
+}
+constexpr Color min(Color const& c, float most) {
+    return {std::min(c.r, most), std::min(c.g, most), std::min(c.b, most)};
+}
+constexpr Color clamp(Color const& c, float low, float high) {
+    return {std::clamp(c.r, low, high), std::clamp(c.g, low, high), std::clamp(c.b, low, high)};
+}
 constexpr float average(Color const& c) { return (c.r + c.g + c.b) * (1 / 3.f); }
 constexpr bool is_black(Color const& c) { return c.r == 0 && c.g == 0 && c.b == 0; }
 inline bool is_finite(Color const& c) {

@@ -4,10 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <vector>
-
-#include "base/color.h"
 
 namespace weft::image {
 
@@ -24,7 +21,7 @@ std::vector<float> make_table(OIIO::TypeDesc type, Transfer transfer) {
     if (transfer == Transfer::linear) return table;
     for (float& v : table) {
         float const step = float(size_t(std::clamp(v, 0.f, 1.f) * 65535 + 0.5f)) / 65535;
-        v = transfer == Transfer::srgb ? srgb_to_linear(step) : std::pow(step, 2.2f);
+        v = decoded(transfer, step);
     }
     return table;
 }

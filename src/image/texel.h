@@ -7,10 +7,25 @@
 
 #include <Imath/half.h>
 
+#include "base/color.h"
+
 namespace weft::image {
 
 /// How the integers of a file encode linear numbers.
 enum class Transfer : uint8_t { linear, gamma22, srgb };
+
+/// The linear number that `x` encodes; negative ones are 0 under gamma22.
+inline float decoded(Transfer transfer, float x) {
+    switch (transfer) {
+    case Transfer::gamma22:
+        return std::pow(std::max(x, 0.f), 2.2f);
+    case Transfer::srgb:
+        return srgb_to_linear(x);
+    case Transfer::linear:
+        break;
+    }
+    return x;
+}
 
 /// Which channels of a file a texture holds: the first three (or the first of fewer), or the
 /// opacity, which is linear.

@@ -100,7 +100,7 @@ Texture TextureCache::read(ImageSource const& source, Transfer transfer, Channel
     bool const fits = memory_bytes_ + bytes + bytes / 3 <= options_.memory / 2;
     if (facts.texels > options_.small_texels || !fits) {
         // Integers that the file says are linear, the converted file does not tell from others.
-        std::string const tiled = converted(path, facts.format.transfer);
+        std::string const tiled = converted(path, facts.texels, facts.format.transfer);
         if (!tiled.empty()) return in_tiles(tiled, facts.format.transfer);
     }
     return read_whole(source, transfer, channels);
@@ -119,7 +119,7 @@ Texture TextureCache::in_tiles(std::string const& path, Transfer transfer) {
 }
 
 /// The path of the converted file; "" where the folder cannot be written.
-std::string TextureCache::converted(std::string const& path, Transfer transfer) {
+std::string TextureCache::converted(std::string const& path, uint64_t texels, Transfer transfer) {
     auto warn = [&](std::string const& reason) {
         warnings_.push_back(path +
                             ": read whole, whatever --texture-memory says: its conversion "
@@ -131,7 +131,7 @@ std::string TextureCache::converted(std::string const& path, Transfer transfer) 
     std::string const tiled = (fs::path(options_.folder) / converted_name(path, transfer)).string();
     if (fs::exists(tiled)) {
         try {
-            if (facts_of(tiled, transfer).texels == facts_of(path, transfer).texels) return tiled;
+            if (facts_of(tiled, transfer).texels == texels) return tiled;
         } catch (InputError const&) {
             // Damaged; it is made anew.
         }

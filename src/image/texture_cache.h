@@ -63,7 +63,7 @@ class TextureCache {
 
     Texture read(ImageSource const& source, Transfer transfer, Channels channels);
     Texture read_whole(ImageSource const& source, Transfer transfer, Channels channels);
-    std::string converted(std::string const& path, Transfer transfer);
+    std::string converted(std::string const& path, uint64_t texels, Transfer transfer);
     Texture in_tiles(std::string const& path, Transfer transfer);
     uint64_t tile_limit() const;
     void share_memory();

@@ -4,14 +4,6 @@
 
 namespace weft::integrator {
 
-namespace {
-
-/// A straight line through more boundaries than this is taken as lost: only broken geometry has
-/// so many.
-constexpr int kMaxCrossings = 1000;
-
-} // namespace
-
 void cross_boundary(world::World const& world, shading::SurfacePoint const& point,
                     Vec3 const& direction, media::MediumStack& stack) {
     if (!world.object(point.object).has_interior) return;
@@ -24,7 +16,7 @@ void cross_boundary(world::World const& world, shading::SurfacePoint const& poin
 Color media_transmittance(world::World const& world, world::Ray ray, media::MediumStack& stack,
                           uint32_t alpha_seed) {
     Color through(1);
-    for (int crossing = 0; crossing < kMaxCrossings; ++crossing) {
+    for (uint32_t crossing = 0; crossing < kMaxCrossings; ++crossing) {
         world::Hit const hit = world.intersect_passable(ray, alpha_seed);
         int32_t const medium = stack.current().medium;
         if (medium >= 0)
@@ -49,7 +41,7 @@ media::MediumStack media_at(world::World const& world, Vec3 const& p) {
     world::Ray ray;
     ray.origin = p;
     ray.direction = normalize(Vec3(0.4082f, 0.7071f, 0.5774f));
-    for (int crossing = 0; crossing < kMaxCrossings; ++crossing) {
+    for (uint32_t crossing = 0; crossing < kMaxCrossings; ++crossing) {
         world::Hit const hit = world.intersect_solid(ray);
         if (!hit) break;
         shading::SurfacePoint const point = world.surface(ray, hit);

@@ -5,6 +5,10 @@
 
 namespace weft::integrator {
 
+/// A straight line through more surfaces than this is taken as lost: only broken geometry has so
+/// many.
+inline constexpr uint32_t kMaxCrossings = 1000;
+
 /// Updates `stack` for a ray that crosses the surface at `point` towards `direction`.
 void cross_boundary(world::World const& world, shading::SurfacePoint const& point,
                     Vec3 const& direction, media::MediumStack& stack);

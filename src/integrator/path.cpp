@@ -123,10 +123,9 @@ void trace_path(world::World const& world, PathSettings const& settings, world::
     PathState path;
     path.ray = ray;
     path.media = media;
-    constexpr uint32_t max_crossings = 1000; // only broken geometry has so many
-    uint32_t crossings = 0;                  // of surfaces that are no vertex
+    uint32_t crossings = 0; // of surfaces that are no vertex
     for (uint32_t vertex = 1; vertex <= settings.depth; ++vertex) {
-        if (crossings > max_crossings) return;
+        if (crossings > kMaxCrossings) return;
         uint32_t const step = vertex + crossings;
         uint32_t const alpha_seed =
             world.has_alpha() ? u.walk(Dimension::Alpha, step).next_uint() : 0;

@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 
+#include "io/append.h"
 #include "io/file_bytes.h"
 #include "io/gltf_nodes.h"
 #include "io/gltf_view.h"
@@ -115,8 +116,8 @@ SceneFile read_gltf_scene(std::string const& path, std::shared_ptr<image::Textur
     if (contents.instances.empty())
         throw InputError({path}, "expected a mesh in the default scene, found none");
     if (contents.cameras.empty()) {
-        scene->cameras.push_back(gltf::frame_all(*scene, contents.instances, {path}));
-        contents.cameras.push_back({int32_t(scene->cameras.size()) - 1});
+        contents.cameras.push_back(
+            {append(scene->cameras, gltf::frame_all(*scene, contents.instances, {path}))});
     }
     to.camera = contents.cameras.front();
     if (contents.cameras.size() > 1)
@@ -125,9 +126,8 @@ SceneFile read_gltf_scene(std::string const& path, std::shared_ptr<image::Textur
     to.instances = contents.instances;
     to.lights = contents.lights;
     auto add_light = [&](scene::Light light, SourceLocation const& where) {
-        scene->lights.push_back(std::move(light));
+        to.lights.push_back({append(scene->lights, std::move(light))});
         scene->light_locations.push_back(where);
-        to.lights.push_back({int32_t(scene->lights.size()) - 1});
     };
     auto add_lamps = [&](std::vector<scene::InstanceId> const& lamps, float weight) {
         for (scene::InstanceId id : lamps)

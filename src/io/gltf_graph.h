@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "io/append.h"
 #include "scene/scene.h"
 
 namespace weft::io::gltf {
@@ -41,9 +42,8 @@ class Nodes {
 
     template <class Node>
     scene::TextureId add(Node node) {
-        scene_.textures.emplace_back(std::move(node));
         scene_.texture_locations.push_back(where);
-        return {int32_t(scene_.textures.size()) - 1};
+        return {append(scene_.textures, std::move(node))};
     }
 
     template <class Op, class T>

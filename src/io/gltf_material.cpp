@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "io/append.h"
 #include "io/xml_document.h"
 
 namespace weft::io::gltf {
@@ -79,9 +80,8 @@ Surface MaterialReader::read(Object& material, VertexData const& vertices) {
         material.boolean("doubleSided", false);
         material.finish();
     }
-    scene_.materials.emplace_back(disney);
+    s.bsdf = {append(scene_.materials, disney)};
     scene_.material_locations.push_back(file_.report().at(material.path()));
-    s.bsdf = {int32_t(scene_.materials.size()) - 1};
     return s;
 }
 
@@ -255,9 +255,8 @@ void MaterialReader::read_transmission(Object& material, scene::Disney& to, Surf
     auto absorption = [&](float c) {
         return float(-std::log(std::max(double(c), 1e-6)) / distance);
     };
-    scene_.media.push_back(
-        {.absorption = {absorption(color.r), absorption(color.g), absorption(color.b)}});
-    surface.medium = {int32_t(scene_.media.size()) - 1};
+    surface.medium = {append(scene_.media, {.absorption = {absorption(color.r), absorption(color.g),
+                                                           absorption(color.b)}})};
 }
 
 } // namespace weft::io::gltf

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/append.h"
 #include "io/gltf_mesh.h"
 #include "io/gltf_view.h"
 #include "io/xml_document.h"
@@ -165,8 +166,7 @@ std::vector<NodeReader::Part> const& NodeReader::mesh(size_t index) {
         scene::MeshShape shape;
         shape.filename = {file_.report().at(primitive.path()).file, int32_t(scene_.meshes.size())};
         scene_.meshes.push_back(std::make_shared<scene::Mesh const>(std::move(*made)));
-        scene_.shapes.emplace_back(std::move(shape));
-        parts.push_back({{int32_t(scene_.shapes.size()) - 1}, surface});
+        parts.push_back({{append(scene_.shapes, std::move(shape))}, surface});
     }
     if (o.has("weights")) o.ignore("weights"); // told with the targets that they weigh
     o.finish();
@@ -233,24 +233,21 @@ void NodeReader::add_instance(Part const& part, Affined const& to_world, Object 
     instance.transform = to_world;
     instance.bsdf = part.surface.bsdf;
     instance.medium = part.surface.medium;
-    scene_.instances.push_back(instance);
+    contents_.instances.push_back({append(scene_.instances, instance)});
     scene_.instance_locations.push_back(file_.report().at(node.path()));
     scene_.instance_names.push_back(Object(node).text("name"));
-    contents_.instances.push_back({int32_t(scene_.instances.size()) - 1});
     if (part.surface.radiance > 0) contents_.emissive.push_back(contents_.instances.back());
     if (part.surface.is_unlit) contents_.unlit.push_back(contents_.instances.back());
     contents_.radiance = std::max(contents_.radiance, part.surface.radiance);
 }
 
 void NodeReader::add_camera(Object& camera, Affined const& to_world) {
-    scene_.cameras.push_back(read_camera(camera, to_world));
-    contents_.cameras.push_back({int32_t(scene_.cameras.size()) - 1});
+    contents_.cameras.push_back({append(scene_.cameras, read_camera(camera, to_world))});
 }
 
 void NodeReader::add_light(Object& light, Affined const& to_world, Object const& node) {
-    scene_.lights.push_back(read_light(light, to_world));
+    contents_.lights.push_back({append(scene_.lights, read_light(light, to_world))});
     scene_.light_locations.push_back(file_.report().at(node.path()));
-    contents_.lights.push_back({int32_t(scene_.lights.size()) - 1});
 }
 
 } // namespace weft::io::gltf

@@ -1,12 +1,13 @@
 #include "io/gltf_texture.h"
 
-#include <algorithm>
+#include "io/append.h"
 
 namespace weft::io::gltf {
 
 namespace {
 
 using scene::Input;
+
 } // namespace
 
 void TextureReader::begin(VertexData const& vertices, uint64_t uv_set) {
@@ -36,10 +37,7 @@ int32_t TextureReader::load(size_t index, Lookup const& lookup, bool mip_levels)
         file_.report().fail(o.path(), "expected 'uri' or 'bufferView', found neither");
     }
     auto const loaded = images_.load(from, lookup.transfer, mip_levels, lookup.channels);
-    auto const it = std::find(scene_.images.begin(), scene_.images.end(), loaded);
-    if (it != scene_.images.end()) return int32_t(it - scene_.images.begin());
-    scene_.images.push_back(loaded);
-    return int32_t(scene_.images.size()) - 1;
+    return index_of(scene_.images, loaded);
 }
 
 void TextureReader::read_sampler(Object& texture, Source& to) {

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "base/match.h"
+#include "io/append.h"
 #include "io/xml_document.h"
 
 namespace weft::io::gltf {
@@ -231,10 +232,9 @@ scene::EnvironmentLight make_studio(scene::Scene& scene, scene::Camera const& ca
     std::memcpy(texels.data(), map.data(), texels.size());
     scene.images.push_back(std::make_shared<image::Texture const>(
         image::Texture::in_memory({image::TexelType::f32, 1}, kWidth, kRows, std::move(texels))));
-    scene.textures.emplace_back(texture);
     scene.texture_locations.push_back({"studio"});
     scene::EnvironmentLight light;
-    light.texture.texture = {int32_t(scene.textures.size()) - 1};
+    light.texture.texture = {append(scene.textures, texture)};
     Affined const& eye = match(
         camera, [](auto const& c) -> auto& { return c.view.transform; });
     // Horizontally from the scene to the camera; one that looks down has its own "down" there.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "io/append.h"
 #include "io/gltf.h"
 #include "io/obj.h"
 #include "io/object_reader_impl.h"
@@ -53,33 +54,6 @@ XmlElement const& SceneBuilder::resolve(XmlElement const& element) const {
 
 namespace {
 
-constexpr std::string_view kUdim = "<UDIM>";
-
-template <class T>
-int32_t push(std::vector<T>& to, T value) {
-    to.push_back(std::move(value));
-    return int32_t(to.size()) - 1;
-}
-
-/// Where `shared` stands in `list`, added where it is new.
-template <class T>
-int32_t index_of(std::vector<T>& list, T const& shared) {
-    auto const it = std::find(list.begin(), list.end(), shared);
-    return it != list.end() ? int32_t(it - list.begin()) : push(list, shared);
-}
-
-image::Transfer transfer_of(scene::ColorSpace space) {
-    switch (space) {
-    case scene::ColorSpace::g22_rec709:
-        return image::Transfer::gamma22;
-    case scene::ColorSpace::srgb_texture:
-        return image::Transfer::srgb;
-    case scene::ColorSpace::lin_rec709:
-        break;
-    }
-    return image::Transfer::linear;
-}
-
 /// The one type that a category with a single type may name.
 void expect_type(XmlElement const& e, std::string const& type) {
     XmlAttribute const* a = e.find("type");
@@ -114,26 +88,26 @@ int32_t SceneBuilder::add(schema::TextureKind, XmlElement const& e) {
     texture_types_.push_back(
         match(texture, [&](auto const& node) { return scene::output_type(node, type_of); }));
     scene_.texture_locations.push_back(e.where);
-    return push(scene_.textures, std::move(texture));
+    return append(scene_.textures, std::move(texture));
 }
 int32_t SceneBuilder::add(scene::CameraKind, XmlElement const& e) {
-    return push(scene_.cameras, read_variant<scene::Camera>(e));
+    return append(scene_.cameras, read_variant<scene::Camera>(e));
 }
 int32_t SceneBuilder::add(scene::MaterialKind, XmlElement const& e) {
     scene::Material material = read_variant<scene::Material>(e);
     scene_.material_locations.push_back(e.where);
-    return push(scene_.materials, std::move(material));
+    return append(scene_.materials, std::move(material));
 }
 int32_t SceneBuilder::add(scene::LayerKind, XmlElement const& e) {
-    return push(scene_.layers, read_struct<scene::Layer>(e));
+    return append(scene_.layers, read_struct<scene::Layer>(e));
 }
 int32_t SceneBuilder::add(scene::ShapeKind, XmlElement const& e) {
-    return push(scene_.shapes, read_variant<scene::Shape>(e));
+    return append(scene_.shapes, read_variant<scene::Shape>(e));
 }
 
 int32_t SceneBuilder::add(scene::EmissionKind, XmlElement const& e) {
     expect_type(e, "lambertian");
-    return push(scene_.emissions, read_struct<scene::LambertianEmission>(e));
+    return append(scene_.emissions, read_struct<scene::LambertianEmission>(e));
 }
 
 int32_t SceneBuilder::add(scene::VolumeKind, XmlElement const& e) {
@@ -141,12 +115,12 @@ int32_t SceneBuilder::add(scene::VolumeKind, XmlElement const& e) {
         throw InputError(e.where,
                          "<volume type=\"grid\"> is not supported yet; expected type=\"constant\"");
     expect_type(e, "constant");
-    return push(scene_.volumes, read_struct<scene::ConstantVolume>(e));
+    return append(scene_.volumes, read_struct<scene::ConstantVolume>(e));
 }
 
 int32_t SceneBuilder::add(scene::MediumKind, XmlElement const& e) {
     expect_type(e, "homogeneous");
-    return push(scene_.media, read_struct<scene::HomogeneousMedium>(e));
+    return append(scene_.media, read_struct<scene::HomogeneousMedium>(e));
 }
 
 int32_t SceneBuilder::add(scene::SamplerKindTag, XmlElement const& e) {
@@ -174,13 +148,13 @@ int32_t SceneBuilder::add(scene::InstanceKind, XmlElement const& e) {
     summaries_.push_back(summary(instance));
     scene_.instance_locations.push_back(e.where);
     scene_.instance_names.emplace_back(e.get("id"));
-    return push(scene_.instances, std::move(instance));
+    return append(scene_.instances, std::move(instance));
 }
 
 int32_t SceneBuilder::add(scene::LightKind, XmlElement const& e) {
     scene::Light light = read_variant<scene::Light>(e);
     scene_.light_locations.push_back(e.where);
-    return push(scene_.lights, std::move(light));
+    return append(scene_.lights, std::move(light));
 }
 
 int32_t SceneBuilder::add(scene::IntegratorKind, XmlElement const& e) {
@@ -191,18 +165,19 @@ int32_t SceneBuilder::add(scene::IntegratorKind, XmlElement const& e) {
 int32_t SceneBuilder::load_image(std::string const& path, scene::ColorSpace encoding,
                                  bool mip_levels, SourceLocation const& where) {
     return index_of(scene_.images, read_at(where, [&] {
-                        return document_.textures->load(path, transfer_of(encoding), mip_levels);
+                        return document_.textures->load(path, scene::transfer_of(encoding),
+                                                        mip_levels);
                     }));
 }
 
 int32_t SceneBuilder::load_udim(std::string const& folder, std::string const& path,
                                 scene::ColorSpace encoding, bool mip_levels,
                                 SourceLocation const& where) {
-    size_t const at = path.find(kUdim);
+    size_t const at = path.find(scene::kUdim);
     std::vector<scene::UdimTile> tiles;
     for (int number = 1001; number <= 1100; ++number) {
         std::string file = path;
-        file.replace(at, kUdim.size(), std::to_string(number));
+        file.replace(at, scene::kUdim.size(), std::to_string(number));
         if (!fs::exists(fs::path(folder) / file)) continue;
         std::string const found = existing_file(folder, file, where);
         tiles.push_back(
@@ -211,7 +186,7 @@ int32_t SceneBuilder::load_udim(std::string const& folder, std::string const& pa
     if (tiles.empty())
         throw InputError(where, "expected files " + in_quotes(path) +
                                     " with <UDIM> from 1001 to 1100, found none");
-    return push(scene_.udims, std::move(tiles));
+    return append(scene_.udims, std::move(tiles));
 }
 
 int32_t SceneBuilder::load_mesh(std::string const& path, SourceLocation const& where) {
@@ -229,7 +204,7 @@ void SceneBuilder::complete(scene::ImageTexture& texture, XmlElement const& elem
     SourceLocation const& where = location_of(element, "filename");
     auto const encoding = texture.linear ? scene::ColorSpace::lin_rec709 : texture.color_space;
     bool const mip_levels = texture.filter == scene::TextureFilter::mipmap;
-    if (texture.filename.path.find(kUdim) != std::string::npos) {
+    if (texture.filename.path.find(scene::kUdim) != std::string::npos) {
         texture.filename.resource =
             load_udim(element.folder, texture.filename.path, encoding, mip_levels, where);
         return;

@@ -72,7 +72,7 @@ inline Color reflectance(WhiteFresnel const&, float) { return Color(1); }
 inline Color reflectance(SchlickFresnel const& f, float cos_o) {
     float const c = std::min(std::max(cos_o, 0.f), 1.f), m = 1 - c, m5 = square(m * m) * m;
     Color const r = f.f0 + (f.f90 - f.f0) * m5 - f.edge * (c * m5 * m);
-    return {std::max(r.r, 0.f), std::max(r.g, 0.f), std::max(r.b, 0.f)};
+    return max(r, 0);
 }
 inline Color reflectance(DielectricFresnel const& f, float cos_o) {
     return Color(fresnel_dielectric(cos_o, f.eta));

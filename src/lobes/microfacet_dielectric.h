@@ -74,7 +74,7 @@ class MicrofacetDielectric {
         Color const sum = reflectance_ * split.reflected + transmittance_ * split.transmitted;
         if (!compensated_) return sum;
         Color const all = sum * compensation(wo, plain);
-        return {std::min(all.r, 1.f), std::min(all.g, 1.f), std::min(all.b, 1.f)};
+        return min(all, 1);
     }
 
   private:
@@ -145,9 +145,7 @@ class MicrofacetDielectric {
             Color const r = rough_reflectance(ThinFilmFresnel{options_.film, Color(eta_), Color(0)},
                                               reflection_moments(distribution_, wo));
             Color const all(plain.reflected + plain.transmitted);
-            return {r,
-                    {std::max(all.r - r.r, 0.f), std::max(all.g - r.g, 0.f),
-                     std::max(all.b - r.b, 0.f)}};
+            return {r, max(all - r, 0)};
         }
         if (options_.reflection_eta > 0) {
             DielectricAlbedo const other =

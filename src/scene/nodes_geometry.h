@@ -2,6 +2,7 @@
 // MaterialX 1.38, but for `instancerandom` and `triplanar` (there: triplanarprojection, of images).
 #pragma once
 
+#include "scene/color_space.h"
 #include "scene/nodes_math.h"
 
 namespace weft::scene::nodes {
@@ -77,11 +78,6 @@ struct FacingRatio {
     }
 };
 
-enum class VertexEncoding { lin_rec709, srgb_texture, g22_rec709 };
-constexpr auto choices(VertexEncoding) {
-    return std::array<std::string_view, 3>{"lin_rec709", "srgb_texture", "g22_rec709"};
-}
-
 struct GeomPropValue {
     static constexpr schema::TypeInfo info{
         .category = "texture",
@@ -94,7 +90,7 @@ struct GeomPropValue {
     std::string geomprop;
     AnyType output = AnyType::color3;
     AnyValue fallback{0.f};
-    VertexEncoding color_space = VertexEncoding::lin_rec709;
+    ColorSpace color_space = ColorSpace::lin_rec709;
     constexpr ValueType output_type() const { return value_type(output); }
 
     template <class F>

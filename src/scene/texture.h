@@ -7,6 +7,7 @@
 #include <string_view>
 #include <variant>
 
+#include "scene/color_space.h"
 #include "scene/handles.h"
 #include "scene/nodes_color.h"
 #include "scene/nodes_geometry.h"
@@ -37,11 +38,8 @@ constexpr auto choices(TextureFilter) {
     return std::array<std::string_view, 3>{"bilinear", "nearest", "mipmap"};
 }
 
-/// Names as in MaterialX. Files of floats are linear whatever is said here.
-enum class ColorSpace { g22_rec709, srgb_texture, lin_rec709 };
-constexpr auto choices(ColorSpace) {
-    return std::array<std::string_view, 3>{"g22_rec709", "srgb_texture", "lin_rec709"};
-}
+/// What stands for the number of a tile in the name of a set of files.
+inline constexpr std::string_view kUdim = "<UDIM>";
 
 struct ImageTexture {
     static constexpr schema::TypeInfo info{

@@ -60,12 +60,9 @@ struct DisneyBuilder {
         lobes::Clearcoat const lobe(std::min(alpha_of(at(m.clearcoat_roughness)), 0.5f), coat_ior);
         b.add(Color(clearcoat), lobe);
         layer_over(clearcoat * b.albedo(lobe, coat));
-        Color const tint = unit(at(m.clearcoat_tint));
-        if (tint == Color(1)) return;
-        float const cos_o = dot(coat.n, b.view.wo);
-        float const cos_t = safe_sqrt(1 - (1 - cos_o * cos_o) / square(coat_ior));
-        auto through = [&](float t) { return std::pow(t, 1 / std::max(cos_t, 1e-3f)); };
-        b.weight *= lerp(Color(1), {through(tint.r), through(tint.g), through(tint.b)}, clearcoat);
+        Color const through =
+            layer_transmittance(unit(at(m.clearcoat_tint)), 1, coat_ior, dot(coat.n, b.view.wo));
+        b.weight *= lerp(Color(1), through, clearcoat);
     }
 
     void add_metal(float share) {
@@ -111,11 +108,12 @@ struct DisneyBuilder {
         Color reflected(0);
         if (f0 > 0) {
             lobes::Fresnel fresnel = lobes::DielectricFresnel{ior_of_f0(f0)};
-            if (film)
+            if (film) {
                 fresnel = lobes::ThinFilmFresnel{film, Color(ior_of_f0(f0)), Color(0)};
-            else if (specular_tint !=
-                     Color(1)) // what is weaker than any stone fades at the edge, too
+            } else if (specular_tint != Color(1)) {
+                // What is weaker than any stone fades at the edge, too.
                 fresnel = lobes::SchlickFresnel{f0 * specular_tint, Color(std::min(50 * f0, 1.f))};
+            }
             lobes::GgxReflection const lobe{facets, fresnel, true};
             b.add(Color(share), lobe);
             reflected = b.albedo(lobe, around);

@@ -48,16 +48,8 @@ inline Vec3 run(VertexOp const& n, NodeContext const& at) {
     auto channel = [&](int c) {
         float const* const values = column.values + std::min(c, column.components - 1);
         auto of = [&](uint32_t vertex) { return values[vertex * size_t(column.components)]; };
-        float const x = of(v[0]) * (1 - b.x - b.y) + of(v[1]) * b.x + of(v[2]) * b.y;
-        switch (n.color_space) {
-        case nodes::VertexEncoding::srgb_texture:
-            return srgb_to_linear(x);
-        case nodes::VertexEncoding::g22_rec709:
-            return std::pow(std::max(x, 0.f), 2.2f);
-        case nodes::VertexEncoding::lin_rec709:
-            break;
-        }
-        return x;
+        return image::decoded(n.transfer,
+                              of(v[0]) * (1 - b.x - b.y) + of(v[1]) * b.x + of(v[2]) * b.y);
     };
     Vec3 const x(channel(0), channel(1), channel(2));
     return n.is_number && column.components == 3 ? Vec3(average(to_color(x))) : x;
@@ -67,16 +59,13 @@ inline Vec3 run(nodes::InstanceRandom const& n, NodeContext const& at) {
     return Vec3(to_unit_float(hash_combine(at.point.object, uint32_t(n.seed))));
 }
 
-/// Tangents around the normal, the bitangent on the side to which v grows: mirrored uvs make
-/// the frame left-handed.
 inline Vec3 run(nodes::NormalMap const& n, NodeContext const& at) {
     Vec3 const normal = at(n.normal), c = at(n.in);
     float const scale = at(n.scale);
     float const up = n.handedness == nodes::Handedness::opengl ? 1.f : -1.f;
-    Frame frame(normal, at.point.dpdu);
-    if (dot(frame.t, at.point.dpdv) < 0) frame.t = -frame.t;
     Vec3 const mapped =
-        frame.to_world({scale * (2 * c.x - 1), scale * up * (2 * c.y - 1), 2 * c.z - 1});
+        tangent_frame(at.point, normal)
+            .to_world({scale * (2 * c.x - 1), scale * up * (2 * c.y - 1), 2 * c.z - 1});
     return length_squared(mapped) > 0 ? normalize(mapped) : normal;
 }
 

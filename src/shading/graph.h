@@ -54,7 +54,7 @@ struct UdimOp {
 struct VertexOp {
     int slot = 0; ///< in VertexAttributes::columns
     Vec3 fallback{0, 0, 0};
-    scene::nodes::VertexEncoding color_space{};
+    image::Transfer transfer = image::Transfer::linear;
     bool is_number = false;
 
     template <class F>

@@ -7,18 +7,6 @@ namespace weft::shading {
 
 namespace {
 
-ImageFilter image_filter(scene::TextureFilter filter) {
-    switch (filter) {
-    case scene::TextureFilter::nearest:
-        return ImageFilter::nearest;
-    case scene::TextureFilter::bilinear:
-        break;
-    case scene::TextureFilter::mipmap:
-        return ImageFilter::mipmap;
-    }
-    return ImageFilter::bilinear;
-}
-
 /// Passed to `describe`: what the unconnected inputs of a node take from the point, and whether
 /// any input is connected.
 struct InputNeeds {
@@ -170,12 +158,11 @@ Operand GraphCompiler::translate(scene::ImageTexture const& node, scene::ValueTy
     connect(texcoord);
     bool const connected = bool(texcoord.texture);
     Needs const needs = connected ? Needs::nothing : Needs::uv;
-    bool const udim = node.filename.path.find("<UDIM>") != std::string::npos;
+    bool const udim = node.filename.path.find(scene::kUdim) != std::string::npos;
     auto lookup = [&](int32_t image) {
         // Tiles end at their borders: beside them is another.
         return ImageLookup{scene_.images[size_t(image)], node.exposure,
-                           udim || node.border == scene::TextureBorder::clamp,
-                           image_filter(node.filter)};
+                           udim || node.border == scene::TextureBorder::clamp, node.filter};
     };
     if (!udim)
         return finish(ImageOp{texcoord, lookup(node.filename.resource)}, needs, connected, type);
@@ -207,7 +194,7 @@ Operand GraphCompiler::translate(scene::nodes::GeomPropValue const& node, scene:
            attributes_[size_t(op.slot)].first != node.geomprop)
         ++op.slot;
     if (size_t(op.slot) == attributes_.size()) attributes_.emplace_back(node.geomprop, current_);
-    op.color_space = node.color_space;
+    op.transfer = scene::transfer_of(node.color_space);
     op.is_number = type == scene::ValueType::number;
     // Another type of fallback would need conversions: a literal is what it is for.
     op.fallback = node.fallback.v;

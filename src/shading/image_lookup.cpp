@@ -101,7 +101,7 @@ template <bool tiled>
 Color filtered(ImageLookup const& l, Vec2 uv, UvFootprint const& footprint) {
     return image::match_format(l.image->format(), [&]<image::TexelType type, int channels>() {
         Reader<type, channels, tiled> const reader{l};
-        return to_color(l.exposure * (l.filter == ImageFilter::bilinear
+        return to_color(l.exposure * (l.filter == scene::TextureFilter::bilinear
                                           ? reader.bilinear(0, uv)
                                           : reader.trilinear(uv, l.level_of(footprint))));
     });
@@ -125,7 +125,7 @@ float ImageLookup::level_of(UvFootprint const& f) const {
 }
 
 Color ImageLookup::at(Vec2 uv, UvFootprint const& footprint) const {
-    if (filter == ImageFilter::nearest) return exposure * nearest(*this, uv);
+    if (filter == scene::TextureFilter::nearest) return exposure * nearest(*this, uv);
     return image->is_in_memory() ? filtered<false>(*this, uv, footprint)
                                  : filtered<true>(*this, uv, footprint);
 }

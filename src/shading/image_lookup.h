@@ -13,18 +13,17 @@
 #include "base/color.h"
 #include "base/vec.h"
 #include "image/texture.h"
+#include "scene/texture.h"
 #include "shading/footprint.h"
 
 namespace weft::shading {
-
-enum class ImageFilter : uint8_t { nearest, bilinear, mipmap };
 
 /// An image over the unit square; v runs upwards, so that v = 1 is the top row.
 struct ImageLookup {
     std::shared_ptr<image::Texture const> image;
     float exposure = 1;
     bool clamp = false;
-    ImageFilter filter = ImageFilter::bilinear;
+    scene::TextureFilter filter = scene::TextureFilter::bilinear;
 
     /// `footprint` matters to `mipmap` alone.
     Color at(Vec2 uv, UvFootprint const& footprint = {}) const;

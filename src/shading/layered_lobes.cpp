@@ -44,11 +44,8 @@ void LobeBuilder::operator()(scene::Coat const& m, Values const& at) const {
     float const ior = at(m.ior), alpha = alpha_of(at(m.roughness));
     lobes::GgxReflection const lobe{{alpha, alpha}, lobes::DielectricFresnel{ior}, true};
     add(Color(w), lobe);
-    float const cos_o = dot(around.n, view.wo);
-    float const cos_t = safe_sqrt(1 - (1 - cos_o * cos_o) / square(ior));
-    float const way = at(m.thickness) / std::max(cos_t, 1e-3f);
-    Color const tint = unit(at(m.tint));
-    Color const through(std::pow(tint.r, way), std::pow(tint.g, way), std::pow(tint.b, way));
+    Color const through =
+        layer_transmittance(unit(at(m.tint)), at(m.thickness), ior, dot(around.n, view.wo));
     build_part(m.bsdf, rest_of(w * albedo(lobe, around)) * lerp(Color(1), through, w), frame);
 }
 

@@ -72,11 +72,18 @@ inline Alphas stretched_alphas(float roughness, float anisotropic) {
     return {std::min(alpha / aspect, 1.f), std::max(alpha * aspect, 1e-3f)};
 }
 
-inline Color unit(Color const& c) {
-    return {std::clamp(c.r, 0.f, 1.f), std::clamp(c.g, 0.f, 1.f), std::clamp(c.b, 0.f, 1.f)};
-}
+inline Color unit(Color const& c) { return clamp(c, 0, 1); }
 inline float unit(float x) { return std::clamp(x, 0.f, 1.f); }
 /// 1 - c, at least 0.
 inline Color rest_of(Color const& c) { return unit(Color(1) - c); }
+
+/// What a clear layer of index `ior` lets through, in and out, of the light seen under `cos_o`: a
+/// layer of thickness 1 lets `tint` through along the normal.
+inline Color layer_transmittance(Color const& tint, float thickness, float ior, float cos_o) {
+    if (tint == Color(1)) return tint;
+    float const cos_t = safe_sqrt(1 - (1 - cos_o * cos_o) / square(ior));
+    float const way = thickness / std::max(cos_t, 1e-3f);
+    return {std::pow(tint.r, way), std::pow(tint.g, way), std::pow(tint.b, way)};
+}
 
 } // namespace weft::shading

@@ -59,55 +59,57 @@ namespace {
 /// Below it a surface is as smooth as floats can tell, and mirrors.
 constexpr float kSmooth = 1e-3f;
 
-lobes::Fresnel metal_fresnel(scene::Microfacet const& m, Values const& at,
-                             lobes::ThinFilm const& film) {
-    lobes::Conductor conductor;
-    switch (m.metal) {
-    case scene::Metal::artist:
-        conductor = lobes::artist_conductor(unit(at(m.reflectance)), unit(at(m.edge_tint)));
-        break;
-    case scene::Metal::complex:
-        conductor = {at(m.complex_ior), at(m.extinction)};
-        break;
-    default: // the presets stand in the same order, after `none`
-        conductor = lobes::conductor_presets[size_t(m.metal) - 1].conductor;
-    }
-    if (film) return lobes::ThinFilmFresnel{film, conductor.eta, conductor.k};
-    return lobes::ConductorFresnel{conductor.eta, conductor.k};
-}
+struct MicrofacetBuilder {
+    LobeBuilder const& b;
+    scene::Microfacet const& m;
+    Values const& at;
+    bool is_metal = m.metal != scene::Metal::none;
+    float ior = at(m.ior);
+    lobes::ThinFilm film{at(m.thin_film_thickness), at(m.thin_film_ior),
+                         b.view.entering || is_metal ? b.view.ior_outside : ior};
 
-template <class Distribution>
-void add_microfacet(LobeBuilder const& b, scene::Microfacet const& m, Values const& at,
-                    Distribution const& distribution, lobes::ThinFilm const& film) {
-    Color const reflectance = m.metal == scene::Metal::artist ? Color(1) : unit(at(m.reflectance));
-    if (m.metal != scene::Metal::none) {
-        b.add(reflectance, lobes::MicrofacetReflection<Distribution>{
-                               distribution, metal_fresnel(m, at, film), true});
-        return;
+    Color reflectance() const {
+        return m.metal == scene::Metal::artist ? Color(1) : unit(at(m.reflectance));
     }
-    float const ior = at(m.ior), reflection_ior = at(m.reflection_ior);
-    lobes::BoundaryOptions const options{reflection_ior > 0 ? b.relative_ior(reflection_ior) : 0.f,
-                                         film};
-    b.add(Color(1),
-          lobes::MicrofacetDielectric<Distribution>(distribution, b.relative_ior(ior), reflectance,
-                                                    unit(at(m.transmittance)), options, true));
-    b.to.ior = ior;
-}
+    Color transmittance() const { return unit(at(m.transmittance)); }
+    lobes::BoundaryOptions options() const {
+        float const reflection_ior = at(m.reflection_ior);
+        return {reflection_ior > 0 ? b.relative_ior(reflection_ior) : 0.f, film};
+    }
 
-void add_smooth(LobeBuilder const& b, scene::Microfacet const& m, Values const& at,
-                lobes::ThinFilm const& film) {
-    Color const reflectance = m.metal == scene::Metal::artist ? Color(1) : unit(at(m.reflectance));
-    if (m.metal != scene::Metal::none) {
-        b.add(reflectance, lobes::SpecularReflection{metal_fresnel(m, at, film)});
-        return;
+    lobes::Conductor conductor() const {
+        switch (m.metal) {
+        case scene::Metal::artist:
+            return lobes::artist_conductor(unit(at(m.reflectance)), unit(at(m.edge_tint)));
+        case scene::Metal::complex:
+            return {at(m.complex_ior), at(m.extinction)};
+        default: // the presets stand in the same order, after `none`
+            return lobes::conductor_presets[size_t(m.metal) - 1].conductor;
+        }
     }
-    float const ior = at(m.ior), reflection_ior = at(m.reflection_ior);
-    lobes::BoundaryOptions const options{reflection_ior > 0 ? b.relative_ior(reflection_ior) : 0.f,
-                                         film};
-    b.add(Color(1), lobes::SpecularDielectric{b.relative_ior(ior), reflectance,
-                                              unit(at(m.transmittance)), options});
-    b.to.ior = ior;
-}
+    lobes::Fresnel fresnel() const {
+        auto const [eta, k] = conductor();
+        if (film) return lobes::ThinFilmFresnel{film, eta, k};
+        return lobes::ConductorFresnel{eta, k};
+    }
+
+    void add_smooth() const {
+        if (is_metal)
+            b.add(reflectance(), lobes::SpecularReflection{fresnel()});
+        else
+            b.add(Color(1), lobes::SpecularDielectric{b.relative_ior(ior), reflectance(),
+                                                      transmittance(), options()});
+    }
+    template <class Distribution>
+    void add_rough(Distribution const& d) const {
+        if (is_metal)
+            b.add(reflectance(), lobes::MicrofacetReflection<Distribution>{d, fresnel(), true});
+        else
+            b.add(Color(1),
+                  lobes::MicrofacetDielectric<Distribution>(d, b.relative_ior(ior), reflectance(),
+                                                            transmittance(), options(), true));
+    }
+};
 
 } // namespace
 
@@ -116,21 +118,18 @@ void LobeBuilder::operator()(scene::Microfacet const& m, Values const& at) const
     float const roughness = at(m.roughness), anisotropic = at(m.anisotropic);
     if (anisotropic > 0) around = around.turned(2 * kPi * at(m.anisotropic_rotation));
     to.bsdf.use_frame(around);
-    lobes::ThinFilm const film{at(m.thin_film_thickness), at(m.thin_film_ior),
-                               view.entering || m.metal != scene::Metal::none ? view.ior_outside
-                                                                              : at(m.ior)};
-    if (roughness < kSmooth || (m.metal == scene::Metal::none && relative_ior(at(m.ior)) == 1)) {
-        add_smooth(*this, m, at, film);
-        return;
-    }
+    MicrofacetBuilder const builder{*this, m, at};
+    if (!builder.is_metal) to.ior = builder.ior;
+    if (roughness < kSmooth || (!builder.is_metal && relative_ior(builder.ior) == 1))
+        return builder.add_smooth();
     auto const [x, y] = stretched_alphas(roughness, anisotropic);
     switch (m.distribution) {
     case scene::MicrofacetDistribution::beckmann:
-        return add_microfacet(*this, m, at, lobes::Beckmann{x, y}, film);
+        return builder.add_rough(lobes::Beckmann{x, y});
     case scene::MicrofacetDistribution::ggx:
-        return add_microfacet(*this, m, at, lobes::Ggx{x, y}, film);
+        return builder.add_rough(lobes::Ggx{x, y});
     case scene::MicrofacetDistribution::ashikhminShirley:
-        return add_microfacet(*this, m, at, lobes::AshikhminShirley{x, y}, film);
+        return builder.add_rough(lobes::AshikhminShirley{x, y});
     }
 }
 

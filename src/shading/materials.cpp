@@ -1,5 +1,7 @@
 #include "shading/materials.h"
 
+#include <optional>
+
 #include "shading/lobe_builder.h"
 
 namespace weft::shading {
@@ -39,6 +41,22 @@ std::vector<scene::MaterialId> parts_of(scene::Scene const& scene, scene::Materi
         for (scene::LayerId layer : layered->layers)
             layers.push_back(scene.layers[size_t(layer.index)]);
     return parts_of(material, layers);
+}
+
+/// The index behind the surface, if light goes there.
+std::optional<scene::Input<float>> index_inside(scene::Scene const& scene, scene::MaterialId id) {
+    auto const& material = scene.materials[size_t(id.index)];
+    if (auto const* d = std::get_if<scene::Dielectric>(&material)) return d->ior;
+    if (auto const* d = std::get_if<scene::RoughDielectric>(&material)) return d->ior;
+    auto const* microfacet = std::get_if<scene::Microfacet>(&material);
+    if (microfacet && microfacet->metal == scene::Metal::none &&
+        may_differ(microfacet->transmittance, Color(0)))
+        return microfacet->ior;
+    auto const* disney = std::get_if<scene::Disney>(&material);
+    if (disney && may_differ(disney->transmission, 0.f)) return disney->ior;
+    for (scene::MaterialId part : parts_of(scene, id))
+        if (auto const ior = index_inside(scene, part)) return ior;
+    return {};
 }
 
 /// The most lobes that the material itself adds.
@@ -149,30 +167,11 @@ Color Materials::straight(scene::MaterialId id, SurfacePoint const& point, View 
 }
 
 scene::Input<float> interior_ior(scene::Scene const& scene, scene::MaterialId id) {
-    auto const& material = scene.materials[size_t(id.index)];
-    if (auto const* d = std::get_if<scene::Dielectric>(&material)) return d->ior;
-    if (auto const* d = std::get_if<scene::RoughDielectric>(&material)) return d->ior;
-    if (auto const* m = std::get_if<scene::Microfacet>(&material))
-        return m->metal == scene::Metal::none ? m->ior : scene::Input<float>{1};
-    if (auto const* d = std::get_if<scene::Disney>(&material))
-        return may_differ(d->transmission, 0.f) ? d->ior : scene::Input<float>{1};
-    for (scene::MaterialId part : parts_of(scene, id))
-        if (is_transmissive(scene, part)) return interior_ior(scene, part);
-    return {1};
+    return index_inside(scene, id).value_or(scene::Input<float>{1});
 }
 
 bool is_transmissive(scene::Scene const& scene, scene::MaterialId id) {
-    auto const& material = scene.materials[size_t(id.index)];
-    if (auto const* m = std::get_if<scene::Microfacet>(&material))
-        return m->metal == scene::Metal::none && may_differ(m->transmittance, Color(0));
-    if (auto const* d = std::get_if<scene::Disney>(&material))
-        return may_differ(d->transmission, 0.f);
-    if (std::holds_alternative<scene::Dielectric>(material) ||
-        std::holds_alternative<scene::RoughDielectric>(material) || is_null_boundary(material))
-        return true;
-    for (scene::MaterialId part : parts_of(scene, id))
-        if (is_transmissive(scene, part)) return true;
-    return false;
+    return is_null_boundary(scene.materials[size_t(id.index)]) || index_inside(scene, id);
 }
 
 bool passes_straight(scene::Scene const& scene, scene::MaterialId id) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/affine.h"
+#include "base/frame.h"
 #include "scene/mesh.h"
 #include "shading/footprint.h"
 
@@ -38,6 +39,14 @@ struct SurfacePoint {
 
 inline Vec3 object_position(SurfacePoint const& s) {
     return s.to_object ? s.to_object->point(s.p) : s.p;
+}
+
+/// Tangents around `normal`, as normal maps mean them: s along growing u, t on the side to which v
+/// grows. Mirrored uvs and transforms make it left-handed.
+inline Frame tangent_frame(SurfacePoint const& s, Vec3 const& normal) {
+    Frame frame(normal, s.dpdu);
+    if (dot(frame.t, s.dpdv) < 0) frame.t = -frame.t;
+    return frame;
 }
 
 /// A ray origin just off the surface, on the side that `direction` points to: far enough that the

@@ -59,8 +59,7 @@ class Textures {
     /// As `at`, kept to what light can be: at least 0. `place`: a SurfacePoint or a uv.
     template <class Place>
     Color radiance(scene::Input<Color> const& input, Place const& place) const {
-        Color const c = at(input, place);
-        return {std::max(c.r, 0.f), std::max(c.g, 0.f), std::max(c.b, 0.f)};
+        return max(at(input, place), 0);
     }
     template <class Place>
     Color radiance(Emission const& e, Place const& place) const {

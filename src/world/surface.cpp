@@ -140,10 +140,7 @@ void World::apply_normal_map(Object const& object, shading::SurfacePoint& point)
     Vec3 const c = textures_.at(object.normal_map, point);
     Vec3 const n(2 * c.x - 1, 2 * c.y - 1, 2 * c.z - 1);
     if (!(length_squared(n) > 0)) return;
-    Frame frame(point.ns, point.dpdu);
-    // Red goes along u and green along v, also where uvs or the transform mirror.
-    if (dot(frame.t, point.dpdv) < 0) frame.t = -frame.t;
-    Vec3 const mapped = normalize(frame.to_world(n));
+    Vec3 const mapped = normalize(tangent_frame(point, point.ns).to_world(n));
     if (dot(mapped, point.ng) > 0) point.ns = mapped;
 }
 
@@ -163,14 +160,23 @@ bool World::has_corners(uint32_t object, uint32_t a, uint8_t corners, uint32_t b
 
 float World::opacity(Hit const& hit, Vec3 const& ng, Vec3 const& direction) const {
     Object const& o = objects_[hit.object];
-    bool const uv_alone = within(textures_.needs(o.opacity), shading::Needs::uv);
-    if (o.kind == ObjectKind::Mesh && uv_alone)
-        return textures_.opacity(o.opacity, mesh_uv(o, hit));
-    // A sphere's normal says where on it the hit is; that of an instance is local already.
-    Vec3 const local = o.instanced ? ng : o.to_object.vector(ng);
-    if (uv_alone) return textures_.opacity(o.opacity, lights::direction_to_uv(local));
+    if (!within(textures_.needs(o.opacity), shading::Needs::uv))
+        return textures_.opacity(o.opacity, filtered_point(hit, ng, direction));
+    return textures_.opacity(o.opacity, o.kind == ObjectKind::Mesh
+                                            ? mesh_uv(o, hit)
+                                            : lights::direction_to_uv(sphere_local(o, ng)));
+}
+
+/// Where on a sphere a hit is: its normal says so, and that of an instance is local already.
+Vec3 World::sphere_local(Object const& object, Vec3 const& ng) {
+    return object.instanced ? ng : object.to_object.vector(ng);
+}
+
+shading::SurfacePoint World::filtered_point(Hit const& hit, Vec3 const& ng,
+                                            Vec3 const& direction) const {
+    Object const& o = objects_[hit.object];
     Vec3 const wo = -(o.instanced ? o.to_world.vector(direction) : direction);
-    return textures_.opacity(o.opacity, point_on(hit, local, normalize(wo)));
+    return point_on(hit, sphere_local(o, ng), normalize(wo));
 }
 
 Color World::transmittance(Hit const& hit, Vec3 const& ng, Vec3 const& direction,
@@ -178,11 +184,9 @@ Color World::transmittance(Hit const& hit, Vec3 const& ng, Vec3 const& direction
     Object const& o = objects_[hit.object];
     float const there = o.has_alpha ? opacity(hit, ng, direction) : 1;
     if (!o.is_see_through || there == 0) return Color(1 - there);
-    Vec3 const local = o.instanced ? ng : o.to_object.vector(ng);
-    Vec3 const wo = normalize(-(o.instanced ? o.to_world.vector(direction) : direction));
-    shading::SurfacePoint const point = point_on(hit, local, wo);
+    shading::SurfacePoint const point = filtered_point(hit, ng, direction);
     return Color(1 - there) +
-           there * materials_.straight(o.material, point, view_of(point, wo, 1, secondary));
+           there * materials_.straight(o.material, point, view_of(point, point.wo, 1, secondary));
 }
 
 Color World::emission(shading::SurfacePoint const& point, Vec3 const& wo) const {
@@ -214,9 +218,7 @@ shading::Shading World::shade(shading::SurfacePoint const& point, Vec3 const& wo
 
 media::Interior World::interior(shading::SurfacePoint const& point) const {
     Object const& o = objects_[point.object];
-    float const ior =
-        o.material ? textures_.at(shading::interior_ior(*scene_, o.material), point) : 1;
-    return {point.object, o.rank, ior, o.medium};
+    return {point.object, o.rank, textures_.at(o.ior, point), o.medium};
 }
 
 } // namespace weft::world

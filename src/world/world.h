@@ -56,10 +56,11 @@ struct Object {
     shading::Emission emission;
     scene::TextureId normal_map;
     shading::Opacity opacity;
-    int32_t light = -1;   ///< index of the light that samples it; -1 none
-    int32_t medium = -1;  ///< what fills it
-    int32_t priority = 0; ///< as the user gave it
-    int32_t rank = 0;     ///< among all with an interior: the higher is there where they overlap
+    scene::Input<float> ior{1}; ///< of its inside
+    int32_t light = -1;         ///< index of the light that samples it; -1 none
+    int32_t medium = -1;        ///< what fills it
+    int32_t priority = 0;       ///< as the user gave it
+    int32_t rank = 0; ///< among all with an interior: the higher is there where they overlap
     bool has_interior = false; ///< crossing its surface changes the medium stack
     bool is_null = false;      ///< no surface: rays pass straight on
     /// Another object's inside may lie over its boundary, which is then not seen.
@@ -164,6 +165,11 @@ class World {
     void mesh_point(Object const& object, Hit const& hit, shading::SurfacePoint& point) const;
     void sphere_point(Object const& object, Vec3 const& local, shading::SurfacePoint& point) const;
     Vec2 mesh_uv(Object const& object, Hit const& hit) const;
+    static Vec3 sphere_local(Object const& object, Vec3 const& ng);
+    /// The point that an opacity filter asks about: `ng` and `direction` are as the kernel has
+    /// them.
+    shading::SurfacePoint filtered_point(Hit const& hit, Vec3 const& ng,
+                                         Vec3 const& direction) const;
     void apply_normal_map(Object const& object, shading::SurfacePoint& point) const;
 
     std::shared_ptr<scene::Scene const> scene_;

@@ -181,7 +181,8 @@ void WorldBuilder::compile_networks() {
         prepare(o.emission.color.texture);
         prepare(o.emission.strength.texture);
         if (!o.material) continue;
-        prepare(shading::interior_ior(scene_, o.material).texture);
+        o.ior = shading::interior_ior(scene_, o.material);
+        prepare(o.ior.texture);
         world_.materials_.compile(scene_, o.material, compiler_);
         look(world_.materials_.needs(o.material));
         o.has_tangents |= world_.materials_.uses_tangents(o.material);

@@ -1,26 +1,11 @@
 #!/bin/bash
 # command_line_test.sh WEFT: exit codes, options and outputs of the program.
 set -uo pipefail
+. "$(dirname "$0")/checks.sh"
 weft=$1
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
-failures=0
-
-# expect CODE COMMAND...: runs it, keeping its output in `out` and `err`.
-expect() {
-    local code=$1
-    shift
-    "$@" >out 2>err
-    local got=$?
-    [ $got = "$code" ] || fail "expected exit code $code, found $got: $*"
-}
-fail() {
-    echo "FAIL: $1"
-    cat err
-    failures=$((failures + 1))
-}
-has() { grep -qF -- "$1" "$2" || fail "expected '$1' in $2"; }
 
 cat >s.xml <<'X'
 <integrator type="path" depth="4">

@@ -2,14 +2,10 @@
 # materials_test.sh WEFT SOURCE: every file of scenes/materials loads, is listed and printed by
 # `weft help`, and stands with its swatch in docs/materials.md, which is up to date.
 set -uo pipefail
+. "$(dirname "$0")/checks.sh"
 weft=$1 source=$2
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-failures=0
-fail() {
-    echo "FAIL: $1"
-    failures=$((failures + 1))
-}
 
 # info BSDF: what `weft info` says of a ball with this material, into $work/out.
 info() {

@@ -4,27 +4,13 @@
 # of converted textures. FILES images of SIZE x SIZE pixels and MEMORY megabytes may be given for a
 # larger run by hand: `textures_test.sh build/release/weft . 20 8192 512`.
 set -uo pipefail
+. "$(dirname "$0")/checks.sh"
 weft=$(realpath "$1")
 files=${3:-4} size=${4:-5800} memory=${5:-50}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
 export XDG_CACHE_HOME=$work/cache
-failures=0
-
-expect() {
-    local code=$1
-    shift
-    "$@" >out 2>err
-    local got=$?
-    [ $got = "$code" ] || fail "expected exit code $code, found $got: $*"
-}
-fail() {
-    echo "FAIL: $1"
-    tail -5 err
-    failures=$((failures + 1))
-}
-has() { grep -qF -- "$1" "$2" || fail "expected '$1' in $2"; }
 # peak COMMAND...: its largest resident set in megabytes, in the variable `peak`.
 peak() {
     peak=$(python3 -c 'import resource, subprocess, sys

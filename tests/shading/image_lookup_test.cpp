@@ -36,7 +36,8 @@ TEST(ImageLookup, BordersRepeatOrClamp) {
         for (int x = -15; x < 22; ++x) {
             // The centre of a texel is that texel, v running upwards.
             Vec2 const uv((float(x) + 0.5f) / 7, 1 - (float(y) + 0.5f) / 5);
-            for (ImageFilter filter : {ImageFilter::nearest, ImageFilter::bilinear}) {
+            for (scene::TextureFilter filter :
+                 {scene::TextureFilter::nearest, scene::TextureFilter::bilinear}) {
                 Color const repeated = ImageLookup{im, 1, false, filter}.at(uv),
                             expected = texel(*im, 0, modulo(x, 7), modulo(y, 5));
                 Color const clamped = ImageLookup{im, 1, true, filter}.at(uv),
@@ -53,8 +54,9 @@ TEST(ImageLookup, AnyCoordinateIsSafe) {
     auto const im = noise(7, 5);
     float const inf = std::numeric_limits<float>::infinity();
     for (float u : {1e9f, -1e9f, 1e30f, -1e30f, inf, -inf, std::nanf("")})
-        for (ImageFilter filter :
-             {ImageFilter::nearest, ImageFilter::bilinear, ImageFilter::mipmap})
+        for (scene::TextureFilter filter :
+             {scene::TextureFilter::nearest, scene::TextureFilter::bilinear,
+              scene::TextureFilter::mipmap})
             for (bool clamp : {false, true})
                 ImageLookup{im, 1, clamp, filter}.at({u, u}, {{u, u}, {u, u}});
 }
@@ -63,21 +65,22 @@ TEST(ImageLookup, FootprintsMatterToMipmapAlone) {
     auto const im = noise(64, 64);
     UvFootprint const wide{{0.2f, 0}, {0, 0.2f}};
     Vec2 const uv(0.3f, 0.7f);
-    for (ImageFilter filter : {ImageFilter::nearest, ImageFilter::bilinear}) {
+    for (scene::TextureFilter filter :
+         {scene::TextureFilter::nearest, scene::TextureFilter::bilinear}) {
         ImageLookup const l{im, 1, false, filter};
         EXPECT_EQ(l.at(uv), l.at(uv, wide));
     }
-    ImageLookup const l{im, 1, false, ImageFilter::mipmap};
+    ImageLookup const l{im, 1, false, scene::TextureFilter::mipmap};
     EXPECT_NE(l.at(uv), l.at(uv, wide));
     // Below the size of a texel it is the image itself, bit by bit.
-    ImageLookup const sharp{im, 1, false, ImageFilter::bilinear};
+    ImageLookup const sharp{im, 1, false, scene::TextureFilter::bilinear};
     EXPECT_EQ(l.at(uv, {{1 / 64.f, 0}, {0, 1 / 64.f}}), sharp.at(uv));
     EXPECT_EQ(l.at(uv), sharp.at(uv));
 }
 
 TEST(ImageLookup, LevelsFollowTheFootprint) {
     auto const im = noise(256, 64);
-    ImageLookup const l{im, 1, false, ImageFilter::mipmap};
+    ImageLookup const l{im, 1, false, scene::TextureFilter::mipmap};
     auto isotropic = [](float texels) { return UvFootprint{{texels / 256, 0}, {0, texels / 64}}; };
     for (int k = 0; k < 6; ++k) EXPECT_FLOAT_EQ(l.level_of(isotropic(float(1 << k))), float(k));
     EXPECT_NEAR(l.level_of(isotropic(6)), 2.585f, 0.05f);
@@ -92,7 +95,7 @@ TEST(ImageLookup, LevelsFollowTheFootprint) {
 
 TEST(ImageLookup, GoesFromLevelToLevelWithoutAStep) {
     auto const im = noise(128, 128);
-    ImageLookup const l{im, 1, false, ImageFilter::mipmap};
+    ImageLookup const l{im, 1, false, scene::TextureFilter::mipmap};
     Vec2 const uv(0.41f, 0.13f);
     auto at = [&](float texels) { return l.at(uv, {{texels / 128, 0}, {0, texels / 128}}).r; };
     for (float w = 1; w < 200; w *= 1.001f) EXPECT_NEAR(at(w), at(w * 1.001f), 2e-3f) << w;

@@ -9,6 +9,8 @@
 #include "base/error.h"
 #include "image/image.h"
 #include "image/texture_file.h"
+#include "scene/color_space.h"
+#include "schema/text.h"
 
 namespace weft::apps {
 
@@ -18,14 +20,8 @@ namespace {
 
 struct Arguments {
     std::vector<std::string> images;
-    std::string output, color_space = "g22_rec709";
+    std::string output, color_space = schema::TextForm<scene::ColorSpace>::write({});
 };
-
-image::Transfer transfer_of(std::string const& color_space) {
-    if (color_space == "srgb_texture") return image::Transfer::srgb;
-    if (color_space == "lin_rec709") return image::Transfer::linear;
-    return image::Transfer::gamma22;
-}
 
 /// Beside the image, or in the folder or under the name that the user gave.
 std::string output_path(Arguments const& a, std::string const& image) {
@@ -38,13 +34,15 @@ std::string output_path(Arguments const& a, std::string const& image) {
 }
 
 int run(Arguments const& a) {
+    scene::ColorSpace color_space{};
+    schema::TextForm<scene::ColorSpace>::read(a.color_space, color_space); // one of the names
     for (std::string const& image : a.images) {
         std::string const to = output_path(a, image);
         if (fs::exists(to) && fs::exists(image) && fs::equivalent(to, image))
             throw InputError(image + ": the image and its conversion are the same file; -o names "
                                      "another");
         try {
-            image::make_texture_file(image, to, transfer_of(a.color_space),
+            image::make_texture_file(image, to, scene::transfer_of(color_space),
                                      [&](double fraction) { print_conversion(image, fraction); });
         } catch (image::IoError const& e) {
             throw InputError(e.what());
@@ -58,6 +56,7 @@ int run(Arguments const& a) {
 
 void add_maketx_command(CLI::App& app, Command& chosen) {
     auto a = std::make_shared<Arguments>();
+    auto const names = choices(scene::ColorSpace{});
     CLI::App* c = app.add_subcommand(
         "maketx", "Convert images to tiled, mip-mapped textures (.tx), of which a render reads "
                   "only what it sees; large images are otherwise converted when first rendered");
@@ -69,7 +68,7 @@ void add_maketx_command(CLI::App& app, Command& chosen) {
     c->add_option("--color-space", a->color_space,
                   "How 8 and 16 bit images encode colours, as the texture will say; lin_rec709 for "
                   "data such as normals")
-        ->check(CLI::IsMember({"g22_rec709", "srgb_texture", "lin_rec709"}));
+        ->check(CLI::IsMember(std::vector<std::string>(names.begin(), names.end())));
     c->callback([a, &chosen] { chosen = [a] { return run(*a); }; });
 }
 
