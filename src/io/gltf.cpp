@@ -131,7 +131,7 @@ SceneFile read_gltf_scene(std::string const& path, std::shared_ptr<image::Textur
     };
     auto add_lamps = [&](std::vector<scene::InstanceId> const& lamps, float weight) {
         for (scene::InstanceId id : lamps)
-            add_light(scene::AreaLight{.instance = id, .weight = weight},
+            add_light(scene::AreaLight{.instance = id, .controls = {.weight = weight}},
                       scene->instance_locations[size_t(id.index)]);
     };
     add_lamps(contents.emissive, 1);

@@ -1,16 +1,12 @@
-// Lights. Every light has a sampling weight: 0 leaves it to be found by rays alone.
+// Lights. light_controls.h has what all of them share.
 #pragma once
 
 #include <string_view>
 #include <variant>
 
-#include "scene/handles.h"
-#include "schema/describe.h"
+#include "scene/environment_light.h"
 
 namespace weft::scene {
-
-inline constexpr schema::Attr kWeightAttr{
-    .min = 0, .help = "Factor on the chance of being picked by light sampling; 0 = never."};
 
 struct PointLight {
     static constexpr schema::TypeInfo info{.category = "light",
@@ -19,7 +15,7 @@ struct PointLight {
                                                "Shines evenly in all directions from one point."};
     Vec3 position{0, 0, 0};
     Color power{1};
-    float weight = 1;
+    LightControls controls;
 
     template <class F>
     constexpr void describe(F&& f) {
@@ -28,7 +24,7 @@ struct PointLight {
           {.unit = "W",
            .min = 0,
            .help = "Radiant flux; the radiant intensity is power / (4 pi)."});
-        f("weight", weight, kWeightAttr);
+        f.group(controls);
     }
 };
 
@@ -38,14 +34,14 @@ struct DirectionalLight {
                                            .help = "Parallel light from infinitely far away."};
     Vec3 direction{0, 0, 1};
     Color intensity{1};
-    float weight = 1;
+    LightControls controls;
 
     template <class F>
     constexpr void describe(F&& f) {
         f("direction", direction, {.help = "Points towards the light."});
         f("intensity", intensity,
           {.unit = "W/m^2", .min = 0, .help = "Irradiance on a surface that faces it."});
-        f("weight", weight, kWeightAttr);
+        f.group(controls);
     }
 };
 
@@ -57,7 +53,7 @@ struct SpotLight {
     Color intensity{1};
     float angle = 40;
     float falloff = 10;
-    float weight = 1;
+    LightControls controls;
 
     template <class F>
     constexpr void describe(F&& f) {
@@ -75,26 +71,7 @@ struct SpotLight {
            .min = 0,
            .max = 360,
            .help = "Full angle by which the outer cone is wider; linear in the angle between."});
-        f("weight", weight, kWeightAttr);
-    }
-};
-
-struct EnvironmentLight {
-    static constexpr schema::TypeInfo info{
-        .category = "light",
-        .type = "envmap",
-        .help = "Light from all around: u = 0.5 - atan2(z, x) / (2 pi), v from the angle to the "
-                "local y axis.",
-        .example = "<light type=\"envmap\"><texture type=\"image\" filename=\"sky.hdr\"/></light>"};
-    Input<Color> texture{Color(1)};
-    Affined transform;
-    float weight = 1;
-
-    template <class F>
-    constexpr void describe(F&& f) {
-        f("texture", texture, {.unit = "W/(m^2 sr)", .min = 0, .help = "Radiance by direction."});
-        f("transform", transform, {.help = "Rotation from the map's space to the world."});
-        f("weight", weight, kWeightAttr);
+        f.group(controls);
     }
 };
 
@@ -105,13 +82,13 @@ struct AreaLight {
                                                "An emissive instance that is sampled as a light. "
                                                "It is part of the scene: do not list it again."};
     InstanceId instance;
-    float weight = 1;
+    LightControls controls;
 
     template <class F>
     constexpr void describe(F&& f) {
         f("instance", instance,
           {.required = true, .help = "The instance; it carries an emission."});
-        f("weight", weight, kWeightAttr);
+        f.group(controls);
     }
 };
 

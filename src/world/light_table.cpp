@@ -8,7 +8,7 @@ LightTable::LightTable(std::vector<Light> lights, std::span<lights::LightBounds 
                        World const& world)
     : lights_(std::move(lights)), tree_(bounds), world_(&world), textures_(&world.textures()) {
     for (size_t i = 0; i < lights_.size(); ++i)
-        if (std::holds_alternative<EnvironmentLight>(lights_[i]))
+        if (std::holds_alternative<EnvironmentLight>(lights_[i].kind))
             environments_.push_back(int32_t(i));
 }
 
@@ -75,7 +75,7 @@ LightSample LightTable::sample_light(EnvironmentLight const& l, Vec3 const&, Vec
 LightSample LightTable::sample(Vec3 const& ref, Vec3 const& n, Vec3 const& u) const {
     auto const choice = tree_.choose(ref, n, u.z);
     if (!(choice.probability > 0)) return {};
-    LightSample sample = match(lights_[choice.index], [&](auto const& l) {
+    LightSample sample = match(lights_[choice.index].kind, [&](auto const& l) {
         return sample_light(l, ref, {u.x, u.y});
     });
     sample.pdf *= choice.probability;
@@ -85,7 +85,7 @@ LightSample LightTable::sample(Vec3 const& ref, Vec3 const& n, Vec3 const& u) co
 
 float LightTable::pdf(int32_t light, Vec3 const& ref, Vec3 const& n,
                       shading::SurfacePoint const& point) const {
-    auto const& area = std::get<AreaLight>(lights_[size_t(light)]);
+    auto const& area = std::get<AreaLight>(lights_[size_t(light)].kind);
     float const choice = tree_.probability(ref, n, uint32_t(light));
     if (choice == 0) return 0;
     return choice * match(area.emitter, [&](auto const& e) {

@@ -33,8 +33,13 @@ struct EnvironmentLight {
     lights::EnvironmentSampler sampler;
 };
 
-using Light = std::variant<lights::PointLight, lights::DirectionalLight, lights::SpotLight,
-                           AreaLight, EnvironmentLight>;
+using LightKind = std::variant<lights::PointLight, lights::DirectionalLight, lights::SpotLight,
+                               AreaLight, EnvironmentLight>;
+
+struct Light {
+    LightKind kind;
+    scene::LightControls controls;
+};
 
 struct LightSample {
     Vec3 wi{0, 0, 1};
@@ -70,7 +75,7 @@ class LightTable {
     template <class F>
     void environment(Vec3 const& ref, Vec3 const& n, Vec3 const& d, F&& f) const {
         for (int32_t i : environments_) {
-            auto const& light = std::get<EnvironmentLight>(lights_[size_t(i)]);
+            auto const& light = std::get<EnvironmentLight>(lights_[size_t(i)].kind);
             Vec3 const local = normalize(light.to_map.vector(d));
             Color const radiance =
                 textures_->radiance(light.texture, lights::direction_to_uv(local));

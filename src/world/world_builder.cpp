@@ -61,11 +61,11 @@ void WorldBuilder::build(CommitOptions const& options) {
 void WorldBuilder::collect_instances() {
     std::vector<int32_t> roots;
     for (scene::InstanceId id : scene_.contents.instances) roots.push_back(id.index);
-    std::map<int32_t, float> area_weights;
+    std::map<int32_t, scene::LightId> area_lights; // by instance
     for (scene::LightId id : scene_.contents.lights) {
         auto const* area = std::get_if<scene::AreaLight>(&scene_.lights[size_t(id.index)]);
         if (!area) continue;
-        area_weights[area->instance.index] = area->weight;
+        area_lights[area->instance.index] = id;
         // An instance that the scene lists as well is not there twice.
         if (std::find(roots.begin(), roots.end(), area->instance.index) == roots.end())
             roots.push_back(area->instance.index);
@@ -84,7 +84,7 @@ void WorldBuilder::collect_instances() {
     for (int32_t root : roots) {
         size_t const first = world_.objects_.size();
         add_instance(root, {});
-        if (auto const it = area_weights.find(root); it != area_weights.end())
+        if (auto const it = area_lights.find(root); it != area_lights.end())
             for (size_t i = first; i < world_.objects_.size(); ++i)
                 if (world_.objects_[i].emission)
                     area_objects_.emplace_back(uint32_t(i), it->second);

@@ -9,6 +9,24 @@
 
 namespace weft::world {
 
+/// The lights while they are collected.
+struct LightList {
+    std::vector<Light> lights;
+    std::vector<lights::LightBounds> bounds; ///< one per light
+    float cross_section = 1; ///< of the scene, for the power of what shines from infinity
+
+    /// `power`: the luminance of what it emits in all.
+    void add(LightKind kind, lights::LightBounds where, float power,
+             scene::LightControls const& controls);
+};
+
+/// The bounds of what shines from infinitely far away.
+inline lights::LightBounds at_infinity() {
+    lights::LightBounds bounds;
+    bounds.at_infinity = true;
+    return bounds;
+}
+
 class WorldBuilder {
   public:
     WorldBuilder(World& world, scene::Scene const& scene)
@@ -54,7 +72,11 @@ class WorldBuilder {
     /// Radiance averaged over the surface, roughly, for judging a light's power.
     float mean_luminance(AreaLight const& light) const;
     void prepare_environment(scene::EnvironmentLight const& light, SourceLocation const& where);
-    void add_area_lights(std::vector<Light>& lights, std::vector<lights::LightBounds>& bounds);
+    void add_light(scene::PointLight const&, SourceLocation const&, LightList&);
+    void add_light(scene::DirectionalLight const&, SourceLocation const&, LightList&);
+    void add_light(scene::SpotLight const&, SourceLocation const&, LightList&);
+    void add_light(scene::EnvironmentLight const&, SourceLocation const&, LightList&);
+    void add_area_lights(LightList& list);
     void count();
 
     World& world_;
@@ -64,7 +86,7 @@ class WorldBuilder {
     std::map<std::pair<int32_t, bool>, int32_t> shared_; ///< mesh, smooth -> triangles
     std::map<int32_t, RTCScene> mesh_scenes_;            ///< triangles -> kernel scene
     RTCScene sphere_scene_ = nullptr;
-    std::vector<std::pair<uint32_t, float>> area_objects_; ///< object, user weight
+    std::vector<std::pair<uint32_t, scene::LightId>> area_objects_; ///< object, its light
     std::shared_ptr<scene::Mesh const> rectangle_;
 };
 
