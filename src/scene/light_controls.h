@@ -14,9 +14,7 @@ struct LightControls {
     template <class F>
     constexpr void describe(F&& f) {
         f("weight", weight,
-          {.min = 0,
-           .help = "Factor on the chance of being picked by light sampling; 0 = never: it is left "
-                   "to be found by rays."});
+          {.min = 0, .help = "Factor on the chance of being picked by light sampling; 0 = never."});
     }
 };
 
