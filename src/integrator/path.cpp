@@ -1,5 +1,6 @@
 #include "integrator/path.h"
 
+#include "integrator/controls.h"
 #include "integrator/direct.h"
 #include "integrator/media_walk.h"
 #include "media/phase.h"
@@ -28,8 +29,10 @@ void add_emission(world::World const& world, PathSettings const& settings, PathS
     int32_t const light = world.object(point.object).light;
     float const light_pdf =
         light >= 0 && path.pdf > 0 ? world.lights().pdf(light, path.p, path.n, point) : 0;
-    sink.add({path.throughput * emission * found_weight(settings.strategy, path, light_pdf), light,
-              path.signature});
+    float const weight = found_weight(settings.strategy, path, light_pdf) *
+                         found_factor(world, settings, path, light, length(point.p - path.p));
+    sink.add({clamped(settings, path.throughput * emission * weight, path.signature.length()),
+              light, path.signature});
 }
 
 /// Light from infinitely far away along a ray that met nothing.
@@ -37,8 +40,11 @@ void add_background(world::World const& world, PathSettings const& settings, Pat
                     film::SampleSink& sink) {
     world.lights().environment(
         path.p, path.n, path.ray.direction, [&](int32_t light, Color const& radiance, float pdf) {
-            sink.add({path.throughput * radiance * found_weight(settings.strategy, path, pdf),
-                      light, path.signature});
+            float const weight = found_weight(settings.strategy, path, pdf) *
+                                 found_factor(world, settings, path, light, kInfinity);
+            sink.add(
+                {clamped(settings, path.throughput * radiance * weight, path.signature.length()),
+                 light, path.signature});
         });
 }
 
@@ -66,11 +72,18 @@ void scatter_in_medium(world::World const& world, PathSettings const& settings, 
     point.p = path.ray.origin;
     point.wo = -path.ray.direction;
     point.g = world.medium(path.media.current().medium).g;
+    if (uint32_t const object = path.media.current().object; object != UINT32_MAX)
+        point.sets = world.object(object).sets;
     path.signature.append(film::Bounce::Volume);
-    path.scattered = true;
+    path.scattered = path.diffused = true;
+    path.caustic = false;
     direct(world, settings, path, point, u, vertex, sink);
     path.p = point.p;
     path.n = Vec3(0);
+    path.sets = point.sets;
+    path.kind = world::RayKind::volume;
+    path.ray.mask = ray_mask(settings, path.kind);
+    path.ray.t_max = kInfinity;
     path.ray.direction =
         media::sample_henyey_greenstein(point.wo, point.g, u.get2(Dimension::Phase, vertex));
     path.pdf = media::henyey_greenstein(dot(point.wo, path.ray.direction), point.g);
@@ -84,14 +97,15 @@ void continue_from(world::World const& world, PathState& path, shading::SurfaceP
     path.ray.origin = shading::offset_origin(point, direction);
     path.ray.direction = direction;
     path.ray.t_min = world::Ray().t_min;
+    path.ray.t_max -= point.t;
     path.ray.cone.width = path.ray.cone.width_at(point.t);
 }
 
 /// Scattering at a surface by the sample `s`. Whatever goes straight on where light sampling sees
 /// through as well is no scattering: the last one stays the one that what is found is weighed by.
 /// Whether it was one.
-bool scatter(PathState& path, lobes::BsdfSample const& s, ScatterPoint const& point,
-             bool see_through) {
+bool scatter(PathSettings const& settings, PathState& path, lobes::BsdfSample const& s,
+             ScatterPoint const& point, bool see_through) {
     path.throughput *= s.weight;
     if (see_through && any(s.flags, lobes::LobeFlags::Straight)) return false;
     path.eta_scale *= s.eta_scale;
@@ -100,6 +114,13 @@ bool scatter(PathState& path, lobes::BsdfSample const& s, ScatterPoint const& po
     path.scattered |= !delta;
     path.p = point.p;
     path.n = point.n;
+    path.sets = point.sets;
+    bool const diffuse = any(s.flags, lobes::LobeFlags::Diffuse);
+    path.caustic = path.diffused && !diffuse;
+    path.diffused |= diffuse;
+    path.kind = scattering_kind(s.flags, any(s.flags, lobes::LobeFlags::Transmission));
+    path.ray.mask = ray_mask(settings, path.kind);
+    path.ray.t_max = point.reach;
     path.signature.append(bounce_kind(s.flags));
     return true;
 }
@@ -122,6 +143,7 @@ void trace_path(world::World const& world, PathSettings const& settings, world::
                 film::SampleSink& sink) {
     PathState path;
     path.ray = ray;
+    path.ray.mask = ray_mask(settings, path.kind);
     path.media = media;
     uint32_t crossings = 0; // of surfaces that are no vertex
     for (uint32_t vertex = 1; vertex <= settings.depth; ++vertex) {
@@ -149,20 +171,25 @@ void trace_path(world::World const& world, PathSettings const& settings, world::
                 continue;
             }
             Vec3 const wo = -path.ray.direction;
-            shading::Shading const shading =
-                world.shade(point, wo, path.media, path.scattered && !settings.full_materials);
+            shading::Shading shading =
+                world.shade(point, wo, path.media, path.scattered && !settings.full_materials,
+                            path.scattered ? settings.secondary_roughness : 0);
+            if (path.diffused && !settings.secondary_specular) shading.bsdf.keep_diffuse();
             add_emission(world, settings, path, point, shading.emission, sink);
             bool const last = vertex == settings.depth;
             if (last && !object.is_see_through) return;
 
-            ScatterPoint const here{point.p, shading.bsdf.frame().n, wo, &shading.bsdf, &point};
+            ScatterPoint const here{
+                point.p,     shading.bsdf.frame().n,    wo, &shading.bsdf, &point, 0,
+                object.sets, reach_of(settings, object)};
             if (shading.bsdf.has_smooth() && !world.lights().empty() && !last)
                 direct(world, settings, path, here, u, step, sink);
 
-            lobes::BsdfSample const s = shading.bsdf.sample(wo, u.get3(Dimension::Bsdf, step));
+            lobes::BsdfSample const s =
+                shading.bsdf.sample(wo, u.get3(Dimension::Bsdf, step), settings.by_part);
             if (!(s.pdf > 0)) return;
             continue_from(world, path, point, s.wi, any(s.flags, lobes::LobeFlags::Transmission));
-            if (scatter(path, s, here, object.is_see_through)) {
+            if (scatter(settings, path, s, here, object.is_see_through)) {
                 if (last) return;
                 path.ray.cone = world::scattered(path.ray.cone, path.pdf, settings.footprint_scale);
             } else { // no vertex, as where opacity leaves a hole

@@ -15,6 +15,11 @@ struct PathSettings {
     uint32_t roulette_depth = 3; ///< vertices that Russian roulette leaves alone
     float footprint_scale = 1;   ///< see world::footprint_scale
     bool full_materials = false; ///< without stand-ins for secondary rays
+    bool controls = true;        ///< lights and objects heed theirs; else the rest is off, too
+    bool by_part = false;        ///< these tell diffuse from glossy scattering
+    bool caustics = true, secondary_specular = true;
+    float secondary_roughness = 0;
+    float indirect_clamp = kInfinity;
 };
 
 struct PathState {
@@ -23,13 +28,23 @@ struct PathState {
     media::MediumStack media;
     film::PathSignature signature;
     bool scattered = false; ///< by something else than mirrors and clear glass
+    bool diffused = false;  ///< by a diffuse surface or a medium
+    bool caustic = false;   ///< and then by a mirror, glass or gloss last
 
     // The last scattering, for weighing what the ray finds against what light sampling finds.
-    float pdf = 0;       ///< of the ray's direction; 0: delta or camera, which nothing else finds
-    Vec3 p{0, 0, 0};     ///< where it was
-    Vec3 n{0, 0, 0};     ///< normal there; 0 in a medium
+    float pdf = 0;     ///< of the ray's direction; 0: delta or camera, which nothing else finds
+    Vec3 p{0, 0, 0};   ///< where it was
+    Vec3 n{0, 0, 0};   ///< normal there; 0 in a medium
+    uint64_t sets = 0; ///< of instances that it belongs to
+    world::RayKind kind = world::RayKind::camera;
     float eta_scale = 1; ///< undoes the radiance scaling of refraction for roulette
 };
+
+/// The kind of ray that leaves a surface, scattered diffusely or not, to the other side or not.
+inline world::RayKind scattering_kind(lobes::LobeFlags flags, bool through) {
+    if (through) return world::RayKind::transmission;
+    return any(flags, lobes::LobeFlags::Diffuse) ? world::RayKind::diffuse : world::RayKind::glossy;
+}
 
 /// A place where a path scatters: a surface with lobes, or a point in a medium with a phase
 /// function. `direct` treats both alike.
@@ -39,7 +54,9 @@ struct ScatterPoint {
     Vec3 wo{0, 0, 1};
     lobes::Bsdf const* bsdf = nullptr; ///< of a surface
     shading::SurfacePoint const* surface = nullptr;
-    float g = 0; ///< of a medium
+    float g = 0;             ///< of a medium
+    uint64_t sets = 0;       ///< of instances that it belongs to
+    float reach = kInfinity; ///< what is further away is not there
 
     lobes::LobeValue eval(Vec3 const& wi) const;
     /// Where a ray towards `wi` starts.

@@ -13,8 +13,18 @@ uint32_t depth_limit(int depth) { return depth < 0 ? kUnlimited : uint32_t(depth
 PathSettings path_settings(scene::Integrator const& integrator) {
     return std::visit(Overloaded{
                           [](scene::PathIntegrator const& i) {
-                              return PathSettings{i.strategy, depth_limit(i.depth),
-                                                  uint32_t(i.roulette_depth), 1, i.full_materials};
+                              PathSettings s{i.strategy, depth_limit(i.depth),
+                                             uint32_t(i.roulette_depth), 1, i.full_materials};
+                              s.controls = i.controls;
+                              if (!i.controls) {
+                                  s.full_materials = true;
+                                  return s;
+                              }
+                              s.caustics = i.caustics;
+                              s.secondary_specular = i.secondary_specular;
+                              s.secondary_roughness = i.secondary_roughness;
+                              if (i.indirect_clamp > 0) s.indirect_clamp = i.indirect_clamp;
+                              return s;
                           },
                           []<class Type>(scene::NamedPathIntegrator<Type> const& i) {
                               return PathSettings{Type::strategy, depth_limit(i.depth),
@@ -69,6 +79,7 @@ PixelRenderer::PixelRenderer(world::World const& world, scene::Integrator const&
       sampler_(sampler_kind(sampler)), seed_(seed),
       filter_(make_filter(match(integrator, [](auto const& i) { return i.target; }))),
       media_(media_at(world, world.camera().position())) {
+    path_.by_part = path_.controls && (world.has_controls_by_kind() || !path_.caustics);
     path_.footprint_scale = world::footprint_scale(
         samples_per_pixel > 0 ? samples_per_pixel
                               : match(sampler, [](auto const& s) { return s.count; }));

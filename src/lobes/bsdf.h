@@ -123,8 +123,17 @@ class Bsdf {
         return sum;
     }
 
-    /// Picks a lobe by u.z, samples it by what is left of u; u in [0, 1)^3.
-    BsdfSample sample(Vec3 const& wo, Vec3 const& u) const;
+    /// The part of `eval` that is Diffuse, or else that which is Glossy. Which side of the surface
+    /// it is on, wi says.
+    LobeValue eval_part(Vec3 const& wo, Vec3 const& wi, LobeFlags part) const;
+
+    /// Picks a lobe by u.z, samples it by what is left of u; u in [0, 1)^3. With `by_part`, value
+    /// and density are those of `eval_part` of the lobe picked alone, as if each part were
+    /// sampled for itself.
+    BsdfSample sample(Vec3 const& wo, Vec3 const& u, bool by_part = false) const;
+
+    /// Takes out all that mirrors or is glossy, but for what goes straight on.
+    void keep_diffuse();
 
     /// The power scattered towards anywhere, per channel; see lobe.h. Microfacet lobes answer
     /// from tables.
@@ -253,7 +262,36 @@ inline void Bsdf::prepare(Vec3 const& wo) {
     for (int i = 0; i < count_; ++i) lobes_[i].pick /= total;
 }
 
-inline BsdfSample Bsdf::sample(Vec3 const& wo, Vec3 const& u) const {
+inline LobeValue Bsdf::eval_part(Vec3 const& wo, Vec3 const& wi, LobeFlags part) const {
+    LobeValue sum;
+    for (int i = 0; i < count_; ++i) {
+        LobeFlags const flags = match(lobes_[i].kind, [](auto const& l) { return l.flags(); });
+        if (any(flags, LobeFlags::Diffuse) != any(part, LobeFlags::Diffuse)) continue;
+        LobeValue const v = eval_folded({i, i + 1, frames_[lobes_[i].frame]}, wo, wi);
+        sum.f += v.f;
+        sum.pdf += v.pdf;
+    }
+    return sum;
+}
+
+inline void Bsdf::keep_diffuse() {
+    constexpr LobeFlags kept = LobeFlags::Diffuse | LobeFlags::Straight;
+    int count = 0;
+    float total = 0;
+    flags_ = smooth_flags_ = LobeFlags::None;
+    for (int i = 0; i < count_; ++i) {
+        LobeFlags const flags = match(lobes_[i].kind, [](auto const& l) { return l.flags(); });
+        if (!any(flags, kept)) continue;
+        lobes_[count++] = lobes_[i];
+        total += lobes_[i].pick;
+        flags_ |= flags;
+        if (!any(flags, LobeFlags::Delta)) smooth_flags_ |= flags;
+    }
+    count_ = count;
+    for (int i = 0; i < count_; ++i) lobes_[i].pick /= total;
+}
+
+inline BsdfSample Bsdf::sample(Vec3 const& wo, Vec3 const& u, bool by_part) const {
     if (count_ == 0) return {};
     int picked = 0;
     float rest = u.z;
@@ -278,7 +316,7 @@ inline BsdfSample Bsdf::sample(Vec3 const& wo, Vec3 const& u) const {
         result.pdf = lobe.pick * p.delta_probability;
         return result;
     }
-    LobeValue const v = eval(wo, wi);
+    LobeValue const v = by_part ? eval_part(wo, wi, p.flags) : eval(wo, wi);
     if (!(v.pdf > 0)) return {};
     result.weight = v.f / v.pdf;
     result.pdf = v.pdf;

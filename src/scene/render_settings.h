@@ -174,6 +174,11 @@ struct PathIntegrator {
     Strategy strategy = Strategy::mis;
     int roulette_depth = 3;
     bool full_materials = false;
+    bool caustics = true;
+    bool secondary_specular = true;
+    float secondary_roughness = 0;
+    float indirect_clamp = 0;
+    bool controls = true;
 
     template <class F>
     constexpr void describe(F&& f) {
@@ -189,6 +194,26 @@ struct PathIntegrator {
         f("fullMaterials", full_materials,
           {.help = "Materials are themselves also where they name a simpler one for `secondary` "
                    "rays; `weft compare` of both pictures tells what that costs in truth."});
+        f("caustics", caustics,
+          {.help = "Without them, light is left out that mirrors, glass and glossy surfaces throw "
+                   "onto diffuse ones."});
+        f("secondarySpecular", secondary_specular,
+          {.help = "Without it, surfaces seen after a diffuse bounce lose their mirrors, glass and "
+                   "gloss, and are the darker for it."});
+        f("secondaryRoughness", secondary_roughness,
+          {.min = 0,
+           .max = 1,
+           .help = "Least roughness of surfaces seen after a bounce that scatters: takes the noise "
+                   "of caustics for some blur."});
+        f("indirectClamp", indirect_clamp,
+          {.unit = "W/(m^2 sr)",
+           .min = 0,
+           .help = "No single contribution over two or more bounces counts for more than this in "
+                   "any channel; 0 is no limit."});
+        f("controls", controls,
+          {.help = "Without it, nothing of the above applies, nor what lights and instances say of "
+                   "links, visibility and distances: what `weft compare` then finds is what they "
+                   "took away."});
     }
 };
 

@@ -1,6 +1,7 @@
 // Shapes, and the instances that put them into the world.
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
@@ -67,6 +68,26 @@ struct Group {
 
 using Shape = std::variant<Sphere, Rectangle, MeshShape, Group>;
 
+/// Which rays meet an instance, by how they came about.
+struct RayVisibility {
+    bool camera = true, diffuse = true, glossy = true, transmission = true, volume = true;
+    bool shadow = true;
+
+    template <class F>
+    constexpr void describe(F&& f) {
+        f("visibleToCamera", camera, {.help = "Whether the camera sees it."});
+        f("visibleToDiffuse", diffuse,
+          {.help = "Whether rays see it that a surface reflected diffusely."});
+        f("visibleToGlossy", glossy,
+          {.help = "Whether rays see it that a mirror or a glossy surface reflected."});
+        f("visibleToTransmission", transmission,
+          {.help = "Whether rays see it that a surface let through."});
+        f("visibleToVolume", volume, {.help = "Whether rays see it that a medium scattered."});
+        f("castShadows", shadow, {.help = "Whether it blocks the light of lights."});
+    }
+    friend constexpr bool operator==(RayVisibility const&, RayVisibility const&) = default;
+};
+
 struct Instance {
     static constexpr schema::TypeInfo info{.category = "instance",
                                            .type = "",
@@ -81,6 +102,9 @@ struct Instance {
     VolumeId volume;
     MediumId medium;
     int priority = 0;
+    RayVisibility visibility;
+    std::string sets;
+    float trace_distance = 0;
 
     template <class F>
     constexpr void describe(F&& f) {
@@ -101,6 +125,15 @@ struct Instance {
            .help = "Where closed dielectrics or media overlap, the higher priority is what is "
                    "there (liquid in a glass: the glass higher). Of equal ones the smaller volume "
                    "is, and of equal volumes the one that comes first."});
+        f.group(visibility);
+        f("sets", sets,
+          {.help = "Names of sets that it belongs to, for the links of lights: \"cast hero\"."});
+        f("traceDistance", trace_distance,
+          {.unit = "scene",
+           .min = 0,
+           .help =
+               "What is further away is not there for rays that leave its surface, whether they "
+               "look for surfaces or lights: they see the environment. 0 is no limit."});
     }
 };
 

@@ -30,8 +30,9 @@ struct DisneyBuilder {
 
     DisneyBuilder(LobeBuilder const& builder, scene::Disney const& material, Values const& values)
         : b(builder), m(material), at(values), base(unit(at(m.base_color))),
-          specular_tint(unit(at(m.specular_tint))), roughness(unit(at(m.roughness))),
-          ior(at(m.ior)), around(b.frame_around(at(m.normal))) {
+          specular_tint(unit(at(m.specular_tint))),
+          roughness(std::max(unit(at(m.roughness)), b.view.least_roughness)), ior(at(m.ior)),
+          around(b.frame_around(at(m.normal))) {
         float const anisotropic = at(m.anisotropic);
         auto const [x, y] = stretched_alphas(roughness, anisotropic);
         facets = {x, y};
@@ -57,7 +58,7 @@ struct DisneyBuilder {
         Frame const coat = b.frame_around(normal == Vec3(0) ? at(m.normal) : normal);
         b.to.bsdf.use_frame(coat);
         float const coat_ior = at(m.clearcoat_ior);
-        lobes::Clearcoat const lobe(std::min(alpha_of(at(m.clearcoat_roughness)), 0.5f), coat_ior);
+        lobes::Clearcoat const lobe(std::min(b.alpha(at(m.clearcoat_roughness)), 0.5f), coat_ior);
         b.add(Color(clearcoat), lobe);
         layer_over(clearcoat * b.albedo(lobe, coat));
         Color const through =
@@ -86,7 +87,7 @@ struct DisneyBuilder {
             b.add(Color(share),
                   lobes::GgxDielectric(facets, eta, specular_tint, base, options, true));
         } else { // two microsurfaces: one is seen, the other is seen through
-            float const alpha = alpha_of(below);
+            float const alpha = b.alpha(below);
             lobes::Ggx const through{alpha, alpha};
             b.add(Color(share),
                   lobes::GgxDielectric(facets, eta, specular_tint, Color(0), options, true));

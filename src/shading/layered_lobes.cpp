@@ -41,7 +41,7 @@ void LobeBuilder::operator()(scene::Coat const& m, Values const& at) const {
     }
     Frame const around = frame_around(at(m.normal));
     to.bsdf.use_frame(around);
-    float const ior = at(m.ior), alpha = alpha_of(at(m.roughness));
+    float const ior = at(m.ior), alpha = this->alpha(at(m.roughness));
     lobes::GgxReflection const lobe{{alpha, alpha}, lobes::DielectricFresnel{ior}, true};
     add(Color(w), lobe);
     Color const through =

@@ -7,6 +7,11 @@
 
 namespace weft::shading {
 
+/// From the roughness that users set to the microfacet distribution's width.
+inline float alpha_of(float roughness) {
+    return std::max(square(std::clamp(roughness, 0.f, 1.f)), 1e-3f);
+}
+
 struct LobeBuilder {
     Materials const& materials;
     SurfacePoint const& point;
@@ -51,16 +56,15 @@ struct LobeBuilder {
     Frame frame_around(Vec3 const& normal) const {
         return normal == Vec3(0) ? frame : shading_frame(point, normalize(normal), view);
     }
+    /// The width of facets for a material's roughness, not below what the view asks for.
+    float alpha(float roughness) const {
+        return alpha_of(std::max(roughness, view.least_roughness));
+    }
     /// Far index over near index.
     float relative_ior(float ior) const {
         return view.entering ? ior / view.ior_outside : view.ior_outside / ior;
     }
 };
-
-/// From the roughness that users set to the microfacet distribution's width.
-inline float alpha_of(float roughness) {
-    return std::max(square(std::clamp(roughness, 0.f, 1.f)), 1e-3f);
-}
 
 /// Widths along and across a brushed surface's tangent (Burley 2012, 5.4); both in [1e-3, 1].
 struct Alphas {

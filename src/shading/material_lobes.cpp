@@ -14,11 +14,16 @@ void LobeBuilder::operator()(scene::Diffuse const& m, Values const& at) const {
 }
 
 void LobeBuilder::operator()(scene::Conductor const& m, Values const& at) const {
-    add(at(m.reflectance), lobes::SpecularReflection{});
+    if (view.least_roughness > 0) {
+        float const alpha = this->alpha(0);
+        add(at(m.reflectance), lobes::GgxReflection{{alpha, alpha}});
+    } else {
+        add(at(m.reflectance), lobes::SpecularReflection{});
+    }
 }
 
 void LobeBuilder::operator()(scene::RoughConductor const& m, Values const& at) const {
-    float const alpha = alpha_of(at(m.roughness));
+    float const alpha = this->alpha(at(m.roughness));
     if (m.distribution == scene::Microfacets::ggx)
         add(at(m.reflectance), lobes::GgxReflection{{alpha, alpha}});
     else
@@ -26,14 +31,17 @@ void LobeBuilder::operator()(scene::RoughConductor const& m, Values const& at) c
 }
 
 void LobeBuilder::operator()(scene::Dielectric const& m, Values const& at) const {
-    float const ior = at(m.ior);
-    add(Color(1),
-        lobes::SpecularDielectric{relative_ior(ior), at(m.reflectance), at(m.transmittance)});
+    float const ior = at(m.ior), eta = relative_ior(ior), alpha = this->alpha(0);
+    Color const r = at(m.reflectance), t = at(m.transmittance);
+    if (view.least_roughness > 0 && eta != 1)
+        add(Color(1), lobes::GgxDielectric({alpha, alpha}, eta, r, t));
+    else
+        add(Color(1), lobes::SpecularDielectric{eta, r, t});
     to.ior = ior;
 }
 
 void LobeBuilder::operator()(scene::RoughDielectric const& m, Values const& at) const {
-    float const ior = at(m.ior), eta = relative_ior(ior), alpha = alpha_of(at(m.roughness));
+    float const ior = at(m.ior), eta = relative_ior(ior), alpha = this->alpha(at(m.roughness));
     Color const r = at(m.reflectance), t = at(m.transmittance);
     if (eta == 1)
         add(Color(1), lobes::SpecularDielectric{1, r, t});
@@ -46,7 +54,7 @@ void LobeBuilder::operator()(scene::RoughDielectric const& m, Values const& at) 
 
 void LobeBuilder::operator()(scene::Principled const& m, Values const& at) const {
     Color const base = unit(at(m.base_color));
-    float const metallic = unit(at(m.metallic)), alpha = alpha_of(at(m.roughness));
+    float const metallic = unit(at(m.metallic)), alpha = this->alpha(at(m.roughness));
     float const f0 = 0.08f * (1 - metallic), cos_o = std::abs(dot(frame.n, view.wo));
     float const c = unit(1 - cos_o);
     float const fresnel = at(m.specular) * (f0 + (1 - f0) * c * c * c * c * c);
@@ -115,7 +123,8 @@ struct MicrofacetBuilder {
 
 void LobeBuilder::operator()(scene::Microfacet const& m, Values const& at) const {
     Frame around = frame_around(at(m.normal));
-    float const roughness = at(m.roughness), anisotropic = at(m.anisotropic);
+    float const roughness = std::max(at(m.roughness), view.least_roughness),
+                anisotropic = at(m.anisotropic);
     if (anisotropic > 0) around = around.turned(2 * kPi * at(m.anisotropic_rotation));
     to.bsdf.use_frame(around);
     MicrofacetBuilder const builder{*this, m, at};

@@ -14,11 +14,12 @@ namespace weft::shading {
 
 /// How a point is looked at.
 struct View {
-    Vec3 wo{0, 0, 1};       ///< unit
-    Vec3 ng{0, 0, 1};       ///< unit geometric normal on wo's side
-    bool entering = true;   ///< wo is on the front side, so that transmission goes in
-    float ior_outside = 1;  ///< of what surrounds the object here
-    bool secondary = false; ///< after a bounce that scatters: `secondary` materials apply
+    Vec3 wo{0, 0, 1};          ///< unit
+    Vec3 ng{0, 0, 1};          ///< unit geometric normal on wo's side
+    bool entering = true;      ///< wo is on the front side, so that transmission goes in
+    float ior_outside = 1;     ///< of what surrounds the object here
+    bool secondary = false;    ///< after a bounce that scatters: `secondary` materials apply
+    float least_roughness = 0; ///< of all that reflects or lets through
 };
 
 struct Shading {

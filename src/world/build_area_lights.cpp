@@ -75,6 +75,7 @@ void WorldBuilder::add_area_lights(LightList& list) {
             match(light.emitter, [](auto const& e) { return lights::bounds_of(e); });
         float const power = kPi * area * mean_luminance(light);
         auto const& from = std::get<scene::AreaLight>(scene_.lights[size_t(scene_light.index)]);
+        list.where = scene_.light_locations[size_t(scene_light.index)];
         list.add(std::move(light), bounds, power, from.controls);
     }
 }

@@ -4,11 +4,12 @@
 
 namespace weft::world {
 
-void LightList::add(LightKind kind, lights::LightBounds where, float power,
+void LightList::add(LightKind kind, lights::LightBounds where_it_is, float power,
                     scene::LightControls const& controls) {
-    where.power = controls.weight * power;
-    lights.push_back({std::move(kind), controls});
-    bounds.push_back(where);
+    where_it_is.power = controls.weight * power;
+    lights.push_back({std::move(kind), controls, {controls, where_it_is, power, cross_section}});
+    bounds.push_back(where_it_is);
+    locations.push_back(where);
 }
 
 void WorldBuilder::add_light(scene::PointLight const& light, SourceLocation const&,
@@ -42,12 +43,14 @@ void WorldBuilder::build_lights() {
     for (scene::LightId id : scene_.contents.lights)
         std::visit(Overloaded{
                        [&](auto const& light) {
-                           add_light(light, scene_.light_locations[size_t(id.index)], list);
+                           list.where = scene_.light_locations[size_t(id.index)];
+                           add_light(light, list.where, list);
                        },
                        [](scene::AreaLight const&) {}, // by the objects that it lets shine
                    },
                    scene_.lights[size_t(id.index)]);
     add_area_lights(list);
+    link_lights(list);
     world_.lights_ = LightTable(std::move(list.lights), list.bounds, world_);
 }
 

@@ -105,7 +105,7 @@ RTCRay to_kernel(Ray const& ray) {
             ray.direction.z,
             ray.time,
             ray.t_max,
-            ~0u,
+            ray.mask,
             0,
             0};
 }
@@ -134,7 +134,9 @@ RTCGeometry WorldBuilder::make_sphere(Vec3 const& centre, float radius) const {
     return geometry;
 }
 
-void WorldBuilder::attach(RTCScene to, RTCGeometry geometry, uint32_t id, bool filtered) {
+void WorldBuilder::attach(RTCScene to, RTCGeometry geometry, uint32_t id, bool filtered,
+                          RayMask mask) {
+    rtcSetGeometryMask(geometry, mask);
     if (filtered) {
         rtcSetGeometryIntersectFilterFunction(geometry, filter_closest);
         rtcSetGeometryOccludedFilterFunction(geometry, filter_shadow);
@@ -159,7 +161,7 @@ RTCScene WorldBuilder::instanced_scene(Object const& object) {
     for (Object const& o : world_.objects_)
         filtered |= o.instanced && o.kind == object.kind && o.triangles == object.triangles &&
                     o.needs_filter();
-    attach(scene, geometry, 0, filtered);
+    attach(scene, geometry, 0, filtered, ~0u);
     rtcCommitScene(scene);
     return scene;
 }
@@ -179,13 +181,13 @@ void WorldBuilder::build_kernel_scene(CommitOptions const& options) {
             RTCGeometry const instance = rtcNewGeometry(world_.device_, RTC_GEOMETRY_TYPE_INSTANCE);
             rtcSetGeometryInstancedScene(instance, inner);
             rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &o.to_world);
-            attach(world_.embree_scene_, instance, id, false);
+            attach(world_.embree_scene_, instance, id, false, o.ray_mask);
         } else if (o.kind == ObjectKind::Sphere) {
             attach(world_.embree_scene_, make_sphere(o.to_world.origin, length(o.to_world.x)), id,
-                   o.needs_filter());
+                   o.needs_filter(), o.ray_mask);
         } else {
             attach(world_.embree_scene_, make_mesh(world_.triangles_[size_t(o.triangles)]), id,
-                   o.needs_filter());
+                   o.needs_filter(), o.ray_mask);
         }
     }
     rtcCommitScene(world_.embree_scene_);

@@ -11,6 +11,7 @@
 #include "lights/light_tree.h"
 #include "scene/scene.h"
 #include "shading/textures.h"
+#include "world/light_rules.h"
 
 namespace weft::world {
 
@@ -39,6 +40,7 @@ using LightKind = std::variant<lights::PointLight, lights::DirectionalLight, lig
 struct Light {
     LightKind kind;
     scene::LightControls controls;
+    LightRules rules;
 };
 
 struct LightSample {
@@ -61,6 +63,7 @@ class LightTable {
                World const& world);
 
     size_t size() const { return lights_.size(); }
+    Light const& operator[](int32_t i) const { return lights_[size_t(i)]; }
     /// Whether no light is ever sampled.
     bool empty() const { return tree_.empty(); }
     /// A light and a point on it, to illuminate `ref` with normal `n` (0 in a medium).

@@ -5,6 +5,7 @@
 
 #include "base/vec.h"
 #include "world/ray_cone.h"
+#include "world/ray_kind.h"
 
 namespace weft::world {
 
@@ -15,8 +16,9 @@ struct Ray {
     /// Hits must lie beyond this. Not 0: the kernel takes a ray that starts in the very plane of
     /// a triangle as hitting it at 0.
     float t_min = 1e-18f;
-    float time = 0; ///< in [0, 1] of the shutter interval
-    RayCone cone;   ///< for texture lookups where the ray ends
+    float time = 0;              ///< in [0, 1] of the shutter interval
+    RayMask mask = kUnruledMask; ///< which objects it meets
+    RayCone cone;                ///< for texture lookups where the ray ends
 };
 
 /// The kernel's answer: which primitive, and where on it.

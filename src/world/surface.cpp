@@ -206,10 +206,12 @@ shading::View World::view_of(shading::SurfacePoint const& point, Vec3 const& wo,
 }
 
 shading::Shading World::shade(shading::SurfacePoint const& point, Vec3 const& wo,
-                              media::MediumStack const& stack, bool secondary) const {
+                              media::MediumStack const& stack, bool secondary,
+                              float least_roughness) const {
     Object const& o = objects_[point.object];
-    shading::View const view =
+    shading::View view =
         view_of(point, wo, o.has_interior ? stack.current_without(point.object).ior : 1, secondary);
+    view.least_roughness = least_roughness;
     shading::Shading shading(lobes::Bsdf(shading::shading_frame(point, point.ns, view), view.ng));
     shading.emission = emission(point, wo);
     if (o.material) materials_.shade(o.material, point, view, shading);

@@ -73,6 +73,10 @@ struct Object {
     Affine to_world, to_object;
     bool is_rectangle = false;    ///< a mesh of two triangles that lights know as one
     int32_t source_instance = -1; ///< of the scene, for messages
+    scene::RayVisibility visibility;
+    RayMask ray_mask = ~0u;   ///< bits of the rays that meet it
+    uint64_t sets = 0;        ///< that it belongs to, as bits
+    float trace_distance = 0; ///< how far rays that leave it see; 0: no limit
 };
 
 struct CommitOptions {
@@ -109,8 +113,10 @@ class World {
 
     shading::SurfacePoint surface(Ray const& ray, Hit const& hit) const;
     /// Emission and lobes at `point` towards unit `wo`; `secondary`: after a bounce that scatters.
+    /// `least_roughness` of all that it reflects and lets through.
     shading::Shading shade(shading::SurfacePoint const& point, Vec3 const& wo,
-                           media::MediumStack const& stack, bool secondary = false) const;
+                           media::MediumStack const& stack, bool secondary = false,
+                           float least_roughness = 0) const;
     /// The point of an object that is nearest to `p` on it: of the triangle `primitive`, where it
     /// is a mesh. Seen from unit `wo`.
     shading::SurfacePoint point_near(uint32_t object, uint32_t primitive, Vec3 const& p,
@@ -126,6 +132,10 @@ class World {
     media::MediumStack outside() const { return outside_; }
     /// Whether straight lines may cross media or passable boundaries.
     bool has_media() const { return has_media_; }
+    /// Whether lights or objects heed controls (scene/light_controls.h, scene::RayVisibility).
+    bool has_controls() const { return has_controls_; }
+    /// Whether these depend on the kind of scattering.
+    bool has_controls_by_kind() const { return has_controls_by_kind_; }
     /// Whether any surface is partly transparent.
     bool has_alpha() const { return has_alpha_; }
 
@@ -184,6 +194,7 @@ class World {
     WorldStatistics statistics_;
     bool has_media_ = false;
     bool has_alpha_ = false;
+    bool has_controls_ = false, has_controls_by_kind_ = false;
     bool use_footprints_ = false; ///< some texture depends on them
     RTCDevice device_ = nullptr;
     RTCScene embree_scene_ = nullptr;

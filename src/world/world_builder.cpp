@@ -25,6 +25,13 @@ bool keeps_round(Affined const& m) {
            std::abs(dot(m.z, m.x)) < least * a;
 }
 
+/// What a group hides, its members do not show.
+scene::RayVisibility all_of(scene::RayVisibility const& a, scene::RayVisibility const& b) {
+    return {a.camera && b.camera, a.diffuse && b.diffuse,
+            a.glossy && b.glossy, a.transmission && b.transmission,
+            a.volume && b.volume, a.shadow && b.shadow};
+}
+
 } // namespace
 
 std::unique_ptr<World const> World::commit(std::shared_ptr<scene::Scene const> scene,
@@ -44,6 +51,7 @@ void WorldBuilder::build(CommitOptions const& options) {
             world_.use_footprints_ |= image->filter == scene::TextureFilter::mipmap;
     rectangle_ = make_rectangle();
     collect_instances();
+    mask_objects();
     compile_networks();
     rank_boundaries();
     attach_attributes();
@@ -106,6 +114,11 @@ void WorldBuilder::add_instance(int32_t index, Inherited const& outer) {
     given.medium = pick(outer.medium, instance.medium);
     given.alpha = outer.alpha != scene::Input<float>{1} ? outer.alpha : instance.alpha;
     given.priority = outer.priority != 0 ? outer.priority : instance.priority;
+    given.visibility = all_of(outer.visibility, instance.visibility);
+    given.sets =
+        outer.sets | sets_.declare(instance.sets, scene_.instance_locations[size_t(index)]);
+    given.trace_distance =
+        outer.trace_distance > 0 ? outer.trace_distance : instance.trace_distance;
     if (auto const* group = std::get_if<scene::Group>(&shape)) {
         for (scene::InstanceId member : group->instances) add_instance(member.index, given);
     } else {
@@ -123,6 +136,9 @@ void WorldBuilder::add_object(scene::Shape const& shape, int32_t instance, Inher
     object.priority = given.priority;
     object.source_instance = instance;
     object.medium = medium_of(given);
+    object.visibility = given.visibility;
+    object.sets = given.sets;
+    object.trace_distance = given.trace_distance;
     if (given.material) {
         auto const& material = scene_.materials[size_t(given.material.index)];
         object.is_null = shading::is_null_boundary(material);

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "world/set_names.h"
 #include "world/world.h"
 
 namespace weft::world {
@@ -13,10 +14,12 @@ namespace weft::world {
 struct LightList {
     std::vector<Light> lights;
     std::vector<lights::LightBounds> bounds; ///< one per light
+    std::vector<SourceLocation> locations;   ///< one per light
     float cross_section = 1; ///< of the scene, for the power of what shines from infinity
+    SourceLocation where;    ///< of those that are added next
 
     /// `power`: the luminance of what it emits in all.
-    void add(LightKind kind, lights::LightBounds where, float power,
+    void add(LightKind kind, lights::LightBounds where_it_is, float power,
              scene::LightControls const& controls);
 };
 
@@ -44,6 +47,9 @@ class WorldBuilder {
         scene::MediumId medium;
         scene::Input<float> alpha{1};
         int priority = 0;
+        scene::RayVisibility visibility;
+        uint64_t sets = 0;
+        float trace_distance = 0;
     };
 
     void collect_instances();
@@ -64,11 +70,16 @@ class WorldBuilder {
     RTCGeometry make_mesh(TriangleData const& triangles) const;
     RTCGeometry make_sphere(Vec3 const& centre, float radius) const;
     RTCScene instanced_scene(Object const& object);
-    void attach(RTCScene to, RTCGeometry geometry, uint32_t id, bool filtered);
+    /// `mask`: bits of the rays that meet it.
+    void attach(RTCScene to, RTCGeometry geometry, uint32_t id, bool filtered, RayMask mask);
 
     void compile_networks();
     void attach_attributes();
     void build_lights();
+    /// What objects and lights say of each other and of rays, in build_light_rules.cpp.
+    void mask_objects();
+    RayMask shadow_mask(Links const& links) const;
+    void link_lights(LightList& list);
     /// Radiance averaged over the surface, roughly, for judging a light's power.
     float mean_luminance(AreaLight const& light) const;
     void prepare_environment(scene::EnvironmentLight const& light, SourceLocation const& where);
@@ -86,6 +97,8 @@ class WorldBuilder {
     std::map<std::pair<int32_t, bool>, int32_t> shared_; ///< mesh, smooth -> triangles
     std::map<int32_t, RTCScene> mesh_scenes_;            ///< triangles -> kernel scene
     RTCScene sphere_scene_ = nullptr;
+    SetNames sets_;
+    std::vector<Links> shadow_links_; ///< one per bit of the ray masks
     std::vector<std::pair<uint32_t, scene::LightId>> area_objects_; ///< object, its light
     std::shared_ptr<scene::Mesh const> rectangle_;
 };

@@ -80,10 +80,10 @@ TEST(SceneFile, AttributesAndChildTagsAreEqual) {
         "value='4,4,4'/><float name='weight' value='5e-1'/></light>");
     EXPECT_EQ(a.position, Vec3(1, 2, 3));
     EXPECT_EQ(a.power, Color(4));
-    EXPECT_EQ(a.weight, 0.5f);
+    EXPECT_EQ(a.controls.weight, 0.5f);
     EXPECT_EQ(a.position, b.position);
     EXPECT_EQ(a.power, b.power);
-    EXPECT_EQ(a.weight, b.weight);
+    EXPECT_EQ(a.controls.weight, b.controls.weight);
 }
 
 TEST(SceneFile, ConstantTexturesAreTheirValue) {

@@ -1,0 +1,44 @@
+// Where paths heed the controls of lights and objects: which objects a ray meets, and what part of
+// the light that arrives counts. With `PathSettings::controls` off, all of it.
+#pragma once
+
+#include "integrator/path_state.h"
+
+namespace weft::integrator {
+
+/// The objects that a ray meets which came about like that.
+inline world::RayMask ray_mask(PathSettings const& settings, world::RayKind kind) {
+    return settings.controls ? world::mask_of(kind) : world::kUnruledMask;
+}
+
+/// How far rays see that leave this object.
+inline float reach_of(PathSettings const& settings, world::Object const& object) {
+    return settings.controls && object.trace_distance > 0 ? object.trace_distance : kInfinity;
+}
+
+/// What a light's controls say, null where no light has any.
+inline world::LightRules const* rules_of(world::World const& world, PathSettings const& settings,
+                                         int32_t light) {
+    return settings.controls && world.has_controls() && light >= 0 ? &world.lights()[light].rules
+                                                                   : nullptr;
+}
+
+/// The part of a light, `distance` away, that counts where the ray of `path` found it by itself.
+inline float found_factor(world::World const& world, PathSettings const& settings,
+                          PathState const& path, int32_t light, float distance) {
+    if (path.caustic && !settings.caustics) return 0;
+    world::LightRules const* rules = rules_of(world, settings, light);
+    if (!rules) return 1;
+    uint32_t const bounces = path.signature.length();
+    if (bounces > 0 && rules->sampling_alone && (path.pdf > 0 || !rules->shown)) return 0;
+    return rules->factor({path.p, path.sets, bounces, path.kind, distance});
+}
+
+/// A contribution over that many bounces, no greater than it may be.
+inline Color clamped(PathSettings const& settings, Color const& value, uint32_t bounces) {
+    float const most = max_component(value);
+    return bounces > 1 && most > settings.indirect_clamp ? value * (settings.indirect_clamp / most)
+                                                         : value;
+}
+
+} // namespace weft::integrator
