@@ -1,6 +1,7 @@
 #include "integrator/direct.h"
 
 #include "integrator/media_walk.h"
+#include "integrator/record.h"
 #include "media/phase.h"
 
 namespace weft::integrator {
@@ -59,8 +60,10 @@ void direct(world::World const& world, PathSettings const& settings, PathState c
     }
     bool const combine = strategy == scene::Strategy::mis && !light.delta;
     float const weight = combine ? power_heuristic(light.pdf, value.pdf) : 1;
+    if (sink.record() && point.bsdf)
+        record_connection(path, *point.bsdf, point.wo, light.wi, *sink.record());
     sink.add({path.throughput * value.f * light.radiance * through * (weight / light.pdf),
-              light.light, path.signature});
+              light.light, path.signature, -1, point.surface != nullptr});
 }
 
 float found_weight(scene::Strategy strategy, PathState const& path, float light_pdf) {

@@ -2,6 +2,7 @@
 
 #include "integrator/direct.h"
 #include "integrator/media_walk.h"
+#include "integrator/record.h"
 #include "media/phase.h"
 
 namespace weft::integrator {
@@ -29,17 +30,20 @@ void add_emission(world::World const& world, PathSettings const& settings, PathS
     float const light_pdf =
         light >= 0 && path.pdf > 0 ? world.lights().pdf(light, path.p, path.n, point) : 0;
     sink.add({path.throughput * emission * found_weight(settings.strategy, path, light_pdf), light,
-              path.signature});
+              path.signature, int32_t(point.object)});
 }
 
 /// Light from infinitely far away along a ray that met nothing.
 void add_background(world::World const& world, PathSettings const& settings, PathState const& path,
                     film::SampleSink& sink) {
+    Color seen;
     world.lights().environment(
         path.p, path.n, path.ray.direction, [&](int32_t light, Color const& radiance, float pdf) {
+            seen += radiance;
             sink.add({path.throughput * radiance * found_weight(settings.strategy, path, pdf),
                       light, path.signature});
         });
+    if (sink.record()) record_background(path, seen, *sink.record());
 }
 
 /// Free flight through the current medium up to `limit`. Whether the path scattered, at the
@@ -68,6 +72,7 @@ void scatter_in_medium(world::World const& world, PathSettings const& settings, 
     point.g = world.medium(path.media.current().medium).g;
     path.signature.append(film::Bounce::Volume);
     path.scattered = true;
+    if (sink.record()) record_volume(path, *sink.record());
     direct(world, settings, path, point, u, vertex, sink);
     path.p = point.p;
     path.n = Vec3(0);
@@ -151,6 +156,7 @@ void trace_path(world::World const& world, PathSettings const& settings, world::
             Vec3 const wo = -path.ray.direction;
             shading::Shading const shading =
                 world.shade(point, wo, path.media, path.scattered && !settings.full_materials);
+            if (sink.record()) record_surface(world, path, point, shading, *sink.record());
             add_emission(world, settings, path, point, shading.emission, sink);
             bool const last = vertex == settings.depth;
             if (last && !object.is_see_through) return;
@@ -161,6 +167,8 @@ void trace_path(world::World const& world, PathSettings const& settings, world::
 
             lobes::BsdfSample const s = shading.bsdf.sample(wo, u.get3(Dimension::Bsdf, step));
             if (!(s.pdf > 0)) return;
+            if (sink.record())
+                record_bounce(path, shading.bsdf, wo, s, object.is_see_through, *sink.record());
             continue_from(world, path, point, s.wi, any(s.flags, lobes::LobeFlags::Transmission));
             if (scatter(path, s, here, object.is_see_through)) {
                 if (last) return;

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <variant>
 
+#include "scene/aov.h"
 #include "scene/handles.h"
 #include "schema/describe.h"
 
@@ -144,10 +145,12 @@ struct DirectIntegrator {
         .type = "direct",
         .help = "Light that reaches the camera over at most one surface."};
     RenderTarget target;
+    Outputs outputs;
 
     template <class F>
     constexpr void describe(F&& f) {
         f.group(target);
+        f.group(outputs);
     }
 };
 
@@ -174,6 +177,7 @@ struct PathIntegrator {
     Strategy strategy = Strategy::mis;
     int roulette_depth = 3;
     bool full_materials = false;
+    Outputs outputs;
 
     template <class F>
     constexpr void describe(F&& f) {
@@ -189,6 +193,7 @@ struct PathIntegrator {
         f("fullMaterials", full_materials,
           {.help = "Materials are themselves also where they name a simpler one for `secondary` "
                    "rays; `weft compare` of both pictures tells what that costs in truth."});
+        f.group(outputs);
     }
 };
 
@@ -199,11 +204,13 @@ struct NamedPathIntegrator {
         .category = "integrator", .type = Type::name, .help = Type::help};
     RenderTarget target;
     int depth = 2;
+    Outputs outputs;
 
     template <class F>
     constexpr void describe(F&& f) {
         f.group(target);
         f("depth", depth, kDepthAttr);
+        f.group(outputs);
     }
 };
 struct PathtracerType {

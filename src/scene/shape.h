@@ -1,6 +1,7 @@
 // Shapes, and the instances that put them into the world.
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
@@ -81,6 +82,7 @@ struct Instance {
     VolumeId volume;
     MediumId medium;
     int priority = 0;
+    std::string group;
 
     template <class F>
     constexpr void describe(F&& f) {
@@ -101,6 +103,9 @@ struct Instance {
            .help = "Where closed dielectrics or media overlap, the higher priority is what is "
                    "there (liquid in a glass: the glass higher). Of equal ones the smaller volume "
                    "is, and of equal volumes the one that comes first."});
+        f("group", group,
+          {.help = "Light group of what it emits, as of lights; that of a light made of it comes "
+                   "first."});
     }
 };
 

@@ -61,6 +61,7 @@ class LightTable {
                World const& world);
 
     size_t size() const { return lights_.size(); }
+    scene::LightControls const& controls(size_t light) const { return lights_[light].controls; }
     /// Whether no light is ever sampled.
     bool empty() const { return tree_.empty(); }
     /// A light and a point on it, to illuminate `ref` with normal `n` (0 in a medium).

@@ -106,6 +106,9 @@ void WorldBuilder::add_instance(int32_t index, Inherited const& outer) {
     given.medium = pick(outer.medium, instance.medium);
     given.alpha = outer.alpha != scene::Input<float>{1} ? outer.alpha : instance.alpha;
     given.priority = outer.priority != 0 ? outer.priority : instance.priority;
+    given.root_instance = outer.root_instance >= 0 ? outer.root_instance : index;
+    given.group_instance = outer.group_instance;
+    if (given.group_instance < 0 && !instance.group.empty()) given.group_instance = index;
     if (auto const* group = std::get_if<scene::Group>(&shape)) {
         for (scene::InstanceId member : group->instances) add_instance(member.index, given);
     } else {
@@ -122,6 +125,8 @@ void WorldBuilder::add_object(scene::Shape const& shape, int32_t instance, Inher
     object.opacity.instance = given.alpha;
     object.priority = given.priority;
     object.source_instance = instance;
+    object.root_instance = given.root_instance;
+    object.group_instance = given.group_instance;
     object.medium = medium_of(given);
     if (given.material) {
         auto const& material = scene_.materials[size_t(given.material.index)];

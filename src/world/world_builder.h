@@ -44,6 +44,7 @@ class WorldBuilder {
         scene::MediumId medium;
         scene::Input<float> alpha{1};
         int priority = 0;
+        int32_t root_instance = -1, group_instance = -1; ///< as in Object
     };
 
     void collect_instances();
