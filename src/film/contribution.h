@@ -4,54 +4,34 @@
 
 #include <cstdint>
 
-#include "base/color.h"
+#include "film/sample_record.h"
 
 namespace weft::film {
 
-/// What a path did at a vertex.
-enum class Bounce : uint8_t {
-    None,
-    Diffuse,
-    Glossy,
-    Specular,
-    DiffuseTransmission,
-    GlossyTransmission,
-    SpecularTransmission,
-    Volume
-};
-
-/// The kinds of a path's bounces from the camera on: 4 bits each, the first 16 of them.
-class PathSignature {
-  public:
-    void append(Bounce bounce) {
-        if (length_ < 16) bits_ |= uint64_t(bounce) << (4 * length_);
-        ++length_;
-    }
-    uint32_t length() const { return length_; } ///< all bounces, those beyond the 16th included
-    /// None beyond the end and beyond the 16th.
-    Bounce operator[](uint32_t i) const {
-        return i < 16 ? Bounce((bits_ >> (4 * i)) & 15) : Bounce::None;
-    }
-
-  private:
-    uint64_t bits_ = 0;
-    uint32_t length_ = 0;
-};
-
-struct Contribution {
-    Color value;        ///< radiance at the camera
-    int32_t light = -1; ///< index of the light; -1: an emissive object that is no light
-    PathSignature const& path;
-};
-
-/// Collects the contributions of one sample of one pixel.
+/// Collects the contributions of one sample of one pixel: their sum and, where a record is given,
+/// all that its layout asks for.
 class SampleSink {
   public:
-    void add(Contribution const& c) { beauty_ += c.value; }
+    SampleSink() = default;
+    explicit SampleSink(SampleRecord* record) : record_(record) {}
+
+    void add(Contribution const& c) {
+        beauty_ += c.value;
+        if (record_) [[unlikely]]
+            record_->add(c);
+    }
+    /// Light that a limit on single samples took out of the beauty.
+    void add_removed(Color const& value) {
+        if (record_) [[unlikely]]
+            record_->add_removed(value);
+    }
     Color const& beauty() const { return beauty_; }
+    /// Null where beauty is all that is wanted.
+    SampleRecord* record() const { return record_; }
 
   private:
     Color beauty_;
+    SampleRecord* record_ = nullptr;
 };
 
 } // namespace weft::film

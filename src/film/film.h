@@ -1,13 +1,17 @@
-// The picture while it is made: per pixel the sum of its samples and their number. Sums are kept
-// in double and every pixel adds its samples in their order, so the result does not depend on
-// who computes what when.
+// The picture while it is made: per pixel the sums of its samples, of all channels that the layout
+// has, and their number. Sums are kept in double and every pixel adds its samples in their order,
+// so the result does not depend on who computes what when.
+//
+// Depth, position and texture coordinates are not averaged, for a mean of two surfaces lies on
+// neither: they are those of the sample whose surface is nearest. Cryptomattes count samples by id.
 #pragma once
 
 #include <cstdint>
+#include <limits>
+#include <string>
 #include <vector>
 
-#include "base/color.h"
-#include "base/vec.h"
+#include "film/sample_record.h"
 #include "image/image.h"
 
 namespace weft::film {
@@ -17,39 +21,109 @@ struct Region {
     Vec2i from{0, 0}, to{0, 0};
     int width() const { return to.x - from.x; }
     int height() const { return to.y - from.y; }
-};
-
-struct PixelSum {
-    double r = 0, g = 0, b = 0;
-    uint32_t samples = 0;
-
-    void add(Color const& c) {
-        r += double(c.r);
-        g += double(c.g);
-        b += double(c.b);
-        ++samples;
+    size_t pixels() const { return size_t(width()) * size_t(height()); }
+    bool contains(Region const& r) const {
+        return r.from.x >= from.x && r.from.y >= from.y && r.to.x <= to.x && r.to.y <= to.y;
     }
 };
+
+/// Stands in the depth channel where there is no surface, as in Cycles.
+inline constexpr float kNoDepth = 1e10f;
 
 class Film {
   public:
-    explicit Film(Region const& region)
-        : region_(region), pixels_(size_t(region.width()) * size_t(region.height())) {}
+    Film() = default;
+    explicit Film(Region const& region, Layout const& layout = {});
 
     Region const& region() const { return region_; }
-    /// `x`, `y` count from the corner of the whole picture.
-    PixelSum& pixel(int x, int y) {
-        return pixels_[size_t(y - region_.from.y) * size_t(region_.width()) +
-                       size_t(x - region_.from.x)];
+    Layout const& layout() const { return layout_; }
+
+    /// Adds sample number `index` of a pixel. `x`, `y` count from the corner of the whole picture.
+    /// `record` is of the same layout, and finished; it may be null where the layout needs none.
+    /// Different pixels may be added to at the same time.
+    void add(int x, int y, uint32_t index, Color const& beauty, SampleRecord const* record) {
+        size_t const i = pixel_index(x, y);
+        double* const sums = &sums_[i * size_t(layout_.sums())];
+        sums[0] += double(beauty.r);
+        sums[1] += double(beauty.g);
+        sums[2] += double(beauty.b);
+        ++counts_[i].all;
+        if (has_more_) add_more(i, index, beauty, record);
     }
+
+    /// How many samples a pixel has, and how many of them have an even number (0 where the layout
+    /// has no half sums).
+    struct Counts {
+        uint32_t all = 0, even = 0;
+        friend bool operator==(Counts const&, Counts const&) = default;
+    };
+    Counts counts(int x, int y) const { return counts_[pixel_index(x, y)]; }
     /// The number of samples of the pixel that has fewest.
     uint32_t least_samples() const;
-    /// The mean of each pixel's samples, RGB; black where there is none yet.
+
+    /// Means of the beauty's samples; black where there is none yet. Of the even samples, and of
+    /// the odd ones, where the layout has half sums.
+    Color mean(int x, int y) const;
+    Color even_mean(int x, int y) const;
+    Color odd_mean(int x, int y) const;
+    /// Variance of the pixel's mean: of n samples s^2 / n, as if they were independent, which is
+    /// more than that of stratified ones. 0 for fewer than 2 samples. Where the layout has squares.
+    Color variance(int x, int y) const;
+    /// How far off the mean is likely to be, by its two halves, which know of the samples'
+    /// stratification: sum |mean - even mean| / sqrt(sum mean) over the channels (Dammertz et al.
+    /// 2010, "A hierarchical automatic stopping condition for Monte Carlo global illumination"). 0
+    /// where there is an empty half. Noisy for a single pixel: to be looked at over several.
+    float error(int x, int y) const;
+
+    /// The beauty, RGB.
     image::Image mean() const;
+    /// All channels, by layout().channel_names().
+    image::Image image() const;
+
+    /// Adds the samples of `part`, which are others than this film has. Throws InputError where the
+    /// layouts differ or `part` has pixels outside of this film.
+    void merge(Film const& part);
+
+    /// All that the film holds, to the bit: reading it gives an equal film.
+    std::string write_state() const;
+    /// Throws InputError where `bytes` are not what `write_state` wrote.
+    static Film read_state(std::string_view bytes);
+
+    /// Bytes that a film of this layout takes for each pixel, but for Cryptomattes.
+    static size_t bytes_per_pixel(Layout const& layout);
+
+    friend bool operator==(Film const& a, Film const& b);
 
   private:
+    /// What is nearest to the camera; `depth` is infinite where there is nothing.
+    struct Nearest {
+        float depth = std::numeric_limits<float>::infinity();
+        std::array<float, 5> p_uv{}; ///< position, texture coordinates
+        friend bool operator==(Nearest const&, Nearest const&) = default;
+    };
+    struct IdCount {
+        uint32_t id = 0, samples = 0;
+        friend bool operator==(IdCount const&, IdCount const&) = default;
+    };
+    using IdCounts = std::vector<IdCount>;
+
+    size_t pixel_index(int x, int y) const {
+        return size_t(y - region_.from.y) * size_t(region_.width()) + size_t(x - region_.from.x);
+    }
+    void add_more(size_t pixel, uint32_t index, Color const& beauty, SampleRecord const* record);
+    static void count_id(IdCounts& counts, uint32_t id, uint32_t samples);
+    double const* sums(size_t pixel) const { return &sums_[pixel * size_t(layout_.sums())]; }
+    Color variance(size_t pixel) const;
+    void write_pixel(size_t pixel, float* to) const;
+    void write_cryptomatte(IdCounts const& counts, double samples, float* to) const;
+
     Region region_;
-    std::vector<PixelSum> pixels_;
+    Layout layout_;
+    bool has_more_ = false; ///< than the beauty's sum
+    std::vector<double> sums_;
+    std::vector<Counts> counts_;
+    std::vector<Nearest> nearest_;                         ///< empty where not wanted
+    std::array<std::vector<IdCounts>, kCryptomattes> ids_; ///< likewise; by ascending id
 };
 
 } // namespace weft::film

@@ -23,6 +23,12 @@ inline world::LightRules const* rules_of(world::World const& world, PathSettings
                                                                    : nullptr;
 }
 
+/// The objects that block a light whose controls are `rules`; 0: none.
+inline world::RayMask shadow_mask(PathSettings const& settings, world::LightRules const* rules) {
+    if (!settings.controls) return world::kUnruledMask;
+    return rules ? rules->shadow_mask : world::kShadowMask;
+}
+
 /// The part of a light, `distance` away, that counts where the ray of `path` found it by itself.
 inline float found_factor(world::World const& world, PathSettings const& settings,
                           PathState const& path, int32_t light, float distance) {

@@ -2,6 +2,7 @@
 
 #include "integrator/controls.h"
 #include "integrator/media_walk.h"
+#include "integrator/record.h"
 #include "media/phase.h"
 
 namespace weft::integrator {
@@ -20,29 +21,87 @@ bool is_hidden(world::World const& world, int32_t object, media::MediumStack con
     return !media.is_visible(uint32_t(object), world.object(uint32_t(object)).rank);
 }
 
-/// What goes on towards the camera of light from `light`: the value there, weighted against the
-/// rays that may find it, where `combine`, and the part that the light's controls let count.
-Color scattered(PathSettings const& settings, PathState const& path, ScatterPoint const& point,
-                world::LightSample const& light, world::LightRules const* rules, uint32_t bounces,
-                bool combine) {
+/// A point and what a light sends to it.
+struct Connection {
+    ScatterPoint const& point;
+    world::LightSample const& light;
+    world::LightRules const* rules; ///< what of it counts; null: all
+    uint32_t bounces;               ///< the point included
+    bool combine;                   ///< rays may find the light as well
+    bool through;                   ///< it comes from the other side of the surface
+};
+
+/// The part of light that `value` scatters towards the camera.
+Color counted(Connection const& c, lobes::LobeValue const& value, world::RayKind kind) {
+    float const weight = c.combine ? power_heuristic(c.light.pdf, value.pdf) : 1;
+    if (!c.rules) return value.f * weight;
+    world::Arrival const to{c.point.p, c.point.sets, c.bounces, kind, c.light.distance};
+    return value.f * (weight * c.rules->factor(to));
+}
+
+/// What of the light is scattered towards the camera: diffusely and glossily where these are told
+/// apart, else both in the first.
+struct Scattered {
+    Color diffuse, glossy;
+};
+
+Scattered scatter(PathSettings const& settings, PathState const& path, Connection const& c) {
     using lobes::LobeFlags;
-    auto const weighted = [&](lobes::LobeValue const& v) {
-        return combine ? v.f * power_heuristic(light.pdf, v.pdf) : v.f;
+    ScatterPoint const& point = c.point;
+    Vec3 const& wi = c.light.wi;
+    if (!point.bsdf) return {counted(c, point.eval(wi), world::RayKind::volume), Color(0)};
+    if (!settings.by_part) return {counted(c, point.eval(wi), world::RayKind::diffuse), Color(0)};
+    auto const part = [&](LobeFlags of) {
+        return counted(c, point.bsdf->eval_part(point.wo, wi, of), scattering_kind(of, c.through));
     };
-    auto const factor = [&](world::RayKind kind) {
-        return rules ? rules->factor({point.p, point.sets, bounces, kind, light.distance}) : 1.f;
-    };
-    if (!point.bsdf) return weighted(point.eval(light.wi)) * factor(world::RayKind::volume);
-    if (!settings.by_part) return weighted(point.eval(light.wi)) * factor(world::RayKind::diffuse);
-    bool const through = dot(light.wi, point.surface->ng) * dot(point.wo, point.surface->ng) < 0;
-    Color sum(0);
-    for (LobeFlags part : {LobeFlags::Diffuse, LobeFlags::Glossy}) {
-        if (part == LobeFlags::Glossy && path.diffused && !settings.caustics) continue;
-        lobes::LobeValue const v = point.bsdf->eval_part(point.wo, light.wi, part);
-        if (is_black(v.f)) continue;
-        sum += weighted(v) * factor(scattering_kind(part, through));
+    bool const drops = path.diffused && !settings.caustics;
+    return {part(LobeFlags::Diffuse), drops ? Color(0) : part(LobeFlags::Glossy)};
+}
+
+/// The part of the light that gets to the point.
+Color transmitted(world::World const& world, PathSettings const& settings, PathState const& path,
+                  Connection const& c, sampling::SampleStream const& u, uint32_t vertex) {
+    world::LightSample const& light = c.light;
+    world::Ray shadow;
+    shadow.origin = c.point.origin(light.wi);
+    shadow.direction = light.wi;
+    shadow.time = path.ray.time;
+    shadow.mask = shadow_mask(settings, c.rules);
+    shadow.t_max = c.point.reach;
+    if (light.distance < kInfinity) {
+        if (light.distance > c.point.reach) return Color(0);
+        // From the offset origin to just before the light, whose own offset was added to `p`.
+        float const moved = dot(shadow.origin - c.point.p, light.wi);
+        shadow.t_max = (light.distance - moved) * (1 - 4 * std::numeric_limits<float>::epsilon()) -
+                       light.p_error;
+        if (!(shadow.t_max > 0)) return Color(0);
     }
-    return sum;
+    Color through = shadow.mask ? world.visibility(shadow, !settings.full_materials) : Color(1);
+    if (is_black(through) || !world.has_media()) return through;
+    media::MediumStack media = path.media;
+    if (c.through) cross_boundary(world, *c.point.surface, light.wi, media);
+    uint32_t const alpha_seed =
+        world.has_alpha() ? u.walk(sampling::Dimension::Light, vertex).next_uint() : 0;
+    through *= media_transmittance(world, shadow, media, alpha_seed);
+    return is_hidden(world, light.object, media) ? Color(0) : through;
+}
+
+/// Tells the film of light over the connection.
+void add(PathSettings const& settings, PathState const& path, Connection const& c,
+         Scattered const& scattered, Color const& arriving, film::SampleSink& sink) {
+    auto const add_value = [&](Color const& value) {
+        sink.add({clamped(settings, value * arriving, c.bounces), c.light.light, path.signature, -1,
+                  c.point.surface != nullptr});
+    };
+    film::SampleRecord* const record = c.point.bsdf ? sink.record() : nullptr;
+    if (!c.point.bsdf || !settings.by_part) {
+        if (record) record_connection(path, *c.point.bsdf, c.point.wo, c.light.wi, *record);
+        return add_value(scattered.diffuse);
+    }
+    if (record) record_connection(path, lobes::LobeFlags::Diffuse, c.through, *record);
+    add_value(scattered.diffuse);
+    if (record) record_connection(path, lobes::LobeFlags::Glossy, c.through, *record);
+    add_value(scattered.glossy);
 }
 
 } // namespace
@@ -50,50 +109,28 @@ Color scattered(PathSettings const& settings, PathState const& path, ScatterPoin
 void direct(world::World const& world, PathSettings const& settings, PathState const& path,
             ScatterPoint const& point, sampling::SampleStream const& u, uint32_t vertex,
             film::SampleSink& sink) {
-    using sampling::Dimension;
     scene::Strategy const strategy = settings.strategy;
     world::LightSample const light =
-        world.lights().sample(point.p, point.n, u.get3(Dimension::Light, vertex));
-    if (!(light.pdf > 0)) return;
-    world::LightRules const* rules = rules_of(world, settings, light.light);
-    bool const alone = light.delta || (rules && rules->sampling_alone);
+        world.lights().sample(point.p, point.n, u.get3(sampling::Dimension::Light, vertex));
+    if (!(light.pdf > 0) || is_black(light.radiance)) return;
+    world::LightRules const* const rules = rules_of(world, settings, light.light);
     // What rays can find is left to them where the strategy says so.
+    bool const alone = light.delta || (rules && rules->sampling_alone);
     if (strategy == scene::Strategy::bsdf && !alone) return;
-    uint32_t const bounces = path.signature.length() + (point.bsdf ? 1 : 0);
-    Color const value = scattered(settings, path, point, light, rules, bounces,
-                                  strategy == scene::Strategy::mis && !alone);
-    if (is_black(value) || is_black(light.radiance)) return;
-    world::Ray shadow;
-    shadow.origin = point.origin(light.wi);
-    shadow.direction = light.wi;
-    shadow.time = path.ray.time;
-    shadow.mask = !settings.controls ? world::kUnruledMask
-                  : rules            ? rules->shadow_mask
-                                     : world::kShadowMask;
-    shadow.t_max = point.reach;
-    if (light.distance < kInfinity) {
-        if (light.distance > point.reach) return;
-        // From the offset origin to just before the light, whose own offset was added to `p`.
-        float const moved = dot(shadow.origin - point.p, light.wi);
-        shadow.t_max = (light.distance - moved) * (1 - 4 * std::numeric_limits<float>::epsilon()) -
-                       light.p_error;
-        if (!(shadow.t_max > 0)) return;
-    }
-    Color through = shadow.mask ? world.visibility(shadow, !settings.full_materials) : Color(1);
-    if (is_black(through)) return;
-    if (world.has_media()) {
-        media::MediumStack media = path.media;
-        bool const crosses =
-            point.surface &&
-            dot(light.wi, point.surface->ng) * dot(point.wo, point.surface->ng) < 0;
-        if (crosses) cross_boundary(world, *point.surface, light.wi, media);
-        uint32_t const alpha_seed =
-            world.has_alpha() ? u.walk(Dimension::Light, vertex).next_uint() : 0;
-        through *= media_transmittance(world, shadow, media, alpha_seed);
-        if (is_black(through) || is_hidden(world, light.object, media)) return;
-    }
-    Color const contribution = path.throughput * value * light.radiance * through / light.pdf;
-    sink.add({clamped(settings, contribution, bounces), light.light, path.signature});
+    bool const through =
+        point.surface && dot(light.wi, point.surface->ng) * dot(point.wo, point.surface->ng) < 0;
+    Connection const connection{point,
+                                light,
+                                rules,
+                                path.signature.length() + (point.bsdf ? 1 : 0),
+                                strategy == scene::Strategy::mis && !alone,
+                                through};
+    Scattered const scattered = scatter(settings, path, connection);
+    if (is_black(scattered.diffuse) && is_black(scattered.glossy)) return;
+    Color const visible = transmitted(world, settings, path, connection, u, vertex);
+    if (is_black(visible)) return;
+    add(settings, path, connection, scattered,
+        path.throughput * light.radiance * visible / light.pdf, sink);
 }
 
 float found_weight(scene::Strategy strategy, PathState const& path, float light_pdf) {

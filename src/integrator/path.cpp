@@ -3,6 +3,7 @@
 #include "integrator/controls.h"
 #include "integrator/direct.h"
 #include "integrator/media_walk.h"
+#include "integrator/record.h"
 #include "media/phase.h"
 
 namespace weft::integrator {
@@ -32,20 +33,23 @@ void add_emission(world::World const& world, PathSettings const& settings, PathS
     float const weight = found_weight(settings.strategy, path, light_pdf) *
                          found_factor(world, settings, path, light, length(point.p - path.p));
     sink.add({clamped(settings, path.throughput * emission * weight, path.signature.length()),
-              light, path.signature});
+              light, path.signature, int32_t(point.object)});
 }
 
 /// Light from infinitely far away along a ray that met nothing.
 void add_background(world::World const& world, PathSettings const& settings, PathState const& path,
                     film::SampleSink& sink) {
+    Color seen;
     world.lights().environment(
         path.p, path.n, path.ray.direction, [&](int32_t light, Color const& radiance, float pdf) {
+            seen += radiance;
             float const weight = found_weight(settings.strategy, path, pdf) *
                                  found_factor(world, settings, path, light, kInfinity);
             sink.add(
                 {clamped(settings, path.throughput * radiance * weight, path.signature.length()),
                  light, path.signature});
         });
+    if (sink.record()) record_background(path, seen, *sink.record());
 }
 
 /// Free flight through the current medium up to `limit`. Whether the path scattered, at the
@@ -77,6 +81,7 @@ void scatter_in_medium(world::World const& world, PathSettings const& settings, 
     path.signature.append(film::Bounce::Volume);
     path.scattered = path.diffused = true;
     path.caustic = false;
+    if (sink.record()) record_volume(path, *sink.record());
     direct(world, settings, path, point, u, vertex, sink);
     path.p = point.p;
     path.n = Vec3(0);
@@ -175,6 +180,7 @@ void trace_path(world::World const& world, PathSettings const& settings, world::
                 world.shade(point, wo, path.media, path.scattered && !settings.full_materials,
                             path.scattered ? settings.secondary_roughness : 0);
             if (path.diffused && !settings.secondary_specular) shading.bsdf.keep_diffuse();
+            if (sink.record()) record_surface(world, path, point, shading, *sink.record());
             add_emission(world, settings, path, point, shading.emission, sink);
             bool const last = vertex == settings.depth;
             if (last && !object.is_see_through) return;
@@ -188,6 +194,9 @@ void trace_path(world::World const& world, PathSettings const& settings, world::
             lobes::BsdfSample const s =
                 shading.bsdf.sample(wo, u.get3(Dimension::Bsdf, step), settings.by_part);
             if (!(s.pdf > 0)) return;
+            if (sink.record())
+                record_bounce(settings, path, shading.bsdf, wo, s, object.is_see_through,
+                              *sink.record());
             continue_from(world, path, point, s.wi, any(s.flags, lobes::LobeFlags::Transmission));
             if (scatter(settings, path, s, here, object.is_see_through)) {
                 if (last) return;

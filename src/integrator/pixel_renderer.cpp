@@ -130,7 +130,13 @@ Color PixelRenderer::trace(scene::AlbedoIntegrator const&, world::Ray const& ray
         .bsdf.albedo(-ray.direction);
 }
 
-Color PixelRenderer::sample(Vec2i pixel, uint32_t sample) const {
+bool PixelRenderer::follows_light() const {
+    return match(integrator_, [](auto const& i) {
+        return requires { i.outputs; };
+    });
+}
+
+Color PixelRenderer::sample(Vec2i pixel, uint32_t sample, film::SampleRecord* record) const {
     using sampling::Dimension;
     sampling::SampleStream const u(sampler_, pixel, sample, seed_);
     Vec2 const offset = film::sample_filter(filter_, u.get2(Dimension::Film));
@@ -145,7 +151,8 @@ Color PixelRenderer::sample(Vec2i pixel, uint32_t sample) const {
         if constexpr (requires { trace(i, ray, alpha_seed); }) {
             return trace(i, ray, alpha_seed);
         } else {
-            film::SampleSink sink;
+            if (record) record->clear();
+            film::SampleSink sink(record);
             trace_path(world_, path_, ray, media_, u, sink);
             return sink.beauty();
         }

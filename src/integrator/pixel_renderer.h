@@ -16,7 +16,12 @@ class PixelRenderer {
 
     /// The radiance that sample number `sample` of `pixel` sees: a pure function of its arguments,
     /// the seed and, where textures are filtered by footprints, the samples per pixel.
-    Color sample(Vec2i pixel, uint32_t sample) const;
+    /// `record`, where given, is cleared and then holds all else that the sample says.
+    Color sample(Vec2i pixel, uint32_t sample, film::SampleRecord* record = nullptr) const;
+
+    /// Whether samples are radiance, rather than some property of the scene: those are not
+    /// negative, and only they fill records.
+    bool follows_light() const;
 
   private:
     Color trace(scene::CameraIntegrator const& i, world::Ray const& ray, uint32_t alpha_seed) const;

@@ -82,6 +82,7 @@ Surface MaterialReader::read(Object& material, VertexData const& vertices) {
     }
     s.bsdf = {append(scene_.materials, disney)};
     scene_.material_locations.push_back(file_.report().at(material.path()));
+    scene_.material_names.push_back(Object(material).text("name"));
     return s;
 }
 

@@ -70,7 +70,16 @@ inline std::string range_phrase(schema::Attr const& attr) {
 /// What a parameter expects, and for a choice also which of them may have been meant.
 template <class T>
 std::pair<std::string, std::string> expectation(T const& value, std::string_view found) {
-    if constexpr (schema::Choice<T>) {
+    if constexpr (schema::ChoiceList<T>) {
+        // The first word that is none of them.
+        typename T::value_type one{};
+        for (std::string_view const word : schema::split_words(found))
+            if (!schema::TextForm<typename T::value_type>::read(word, one)) {
+                auto const [expected, hint] = expectation(one, word);
+                return {"any " + expected.substr(4), hint};
+            }
+        return {std::string(schema::TextForm<T>::expected), ""};
+    } else if constexpr (schema::Choice<T>) {
         auto const names = choices(value);
         std::vector<std::string> const known(names.begin(), names.end());
         std::string expected = "one of";

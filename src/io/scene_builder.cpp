@@ -73,6 +73,18 @@ auto read_at(SourceLocation const& where, Read const& read) {
     }
 }
 
+/// The name of a light group, which becomes a part of channels' names.
+void check_group(std::string const& group, XmlElement const& element) {
+    auto const fits = [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+               c == '_' || c == '-';
+    };
+    if (!std::all_of(group.begin(), group.end(), fits))
+        throw InputError(location_of(element, "group"),
+                         "'group' of " + element_title(element) +
+                             " expects letters, digits, _ and -, found " + in_quotes(group));
+}
+
 void check_direction(Vec3 const& direction, XmlElement const& element) {
     if (!(length_squared(Vec3d(direction)) > 0))
         throw InputError(location_of(element, "direction"),
@@ -96,6 +108,7 @@ int32_t SceneBuilder::add(scene::CameraKind, XmlElement const& e) {
 int32_t SceneBuilder::add(scene::MaterialKind, XmlElement const& e) {
     scene::Material material = read_variant<scene::Material>(e);
     scene_.material_locations.push_back(e.where);
+    scene_.material_names.emplace_back(e.get("id"));
     return append(scene_.materials, std::move(material));
 }
 int32_t SceneBuilder::add(scene::LayerKind, XmlElement const& e) {
@@ -153,6 +166,7 @@ int32_t SceneBuilder::add(scene::InstanceKind, XmlElement const& e) {
 
 int32_t SceneBuilder::add(scene::LightKind, XmlElement const& e) {
     scene::Light light = read_variant<scene::Light>(e);
+    match(light, [&](auto const& l) { check_group(l.controls.group, e); });
     scene_.light_locations.push_back(e.where);
     return append(scene_.lights, std::move(light));
 }
@@ -252,6 +266,7 @@ void SceneBuilder::complete(scene::Secondary& material, XmlElement const& elemen
 }
 
 void SceneBuilder::complete(scene::Instance& instance, XmlElement const& element) {
+    check_group(instance.group, element);
     if (!instance.normal) return;
     auto const type = texture_type(instance.normal);
     if (type != scene::ValueType::color && type != scene::ValueType::vector3)

@@ -79,6 +79,8 @@ class Bsdf {
 
     /// The first frame, that of the surface itself.
     Frame const& frame() const { return frames_[0]; }
+    /// The one that a lobe of the list lies around.
+    Frame const& frame(Lobe const& lobe) const { return frames_[lobe.frame]; }
 
     /// Lobes added from here on lie around `frame`, whose n is on wo's side. Beyond
     /// `frame_capacity` frames it is the last one that does.
@@ -122,6 +124,15 @@ class Bsdf {
         }
         return sum;
     }
+
+    /// The parts that make up `eval(wo, wi).f`: calls f(lobe, value) for each smooth lobe.
+    template <class F>
+    void for_each_value(Vec3 const& wo, Vec3 const& wi, F&& f) const {
+        for (int i = 0; i < count_; ++i)
+            f(lobes_[i], eval_folded({i, i + 1, frames_[lobes_[i].frame]}, wo, wi).f);
+    }
+    /// Whether wi is on wo's side of the surface itself.
+    bool reflects(Vec3 const& wi) const { return dot(wi, geometric_normal_) > 0; }
 
     /// The part of `eval` that is Diffuse, or else that which is Glossy. Which side of the surface
     /// it is on, wi says.

@@ -7,11 +7,16 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "scene/handles.h"
 #include "schema/describe.h"
 
 namespace weft::scene {
+
+inline constexpr schema::Attr kGroupAttr{
+    .help = "Light group: the `light_groups` AOV has a picture of the light of each. Letters, "
+            "digits, _ and -; without one it is in `default`."};
 
 struct LightControls {
     float weight = 1;
@@ -23,6 +28,7 @@ struct LightControls {
     std::string illuminates, shadowed_by;
     float max_distance = 0;
     float min_contribution = 0;
+    std::string group;
 
     template <class F>
     constexpr void describe(F&& f) {
@@ -75,6 +81,7 @@ struct LightControls {
            .help = "Beyond the first bounce, points where its irradiance would be less than this, "
                    "estimated from its intensity and distance, are not lit; large values leave a "
                    "light to what the camera sees. 0: all are."});
+        f("group", group, kGroupAttr);
     }
     friend bool operator==(LightControls const&, LightControls const&) = default;
 };

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <variant>
 
+#include "scene/aov.h"
 #include "scene/handles.h"
 #include "schema/describe.h"
 
@@ -144,10 +145,12 @@ struct DirectIntegrator {
         .type = "direct",
         .help = "Light that reaches the camera over at most one surface."};
     RenderTarget target;
+    Outputs outputs;
 
     template <class F>
     constexpr void describe(F&& f) {
         f.group(target);
+        f.group(outputs);
     }
 };
 
@@ -179,6 +182,7 @@ struct PathIntegrator {
     float secondary_roughness = 0;
     float indirect_clamp = 0;
     bool controls = true;
+    Outputs outputs;
 
     template <class F>
     constexpr void describe(F&& f) {
@@ -214,6 +218,7 @@ struct PathIntegrator {
           {.help = "Without it, nothing of the above applies, nor what lights and instances say of "
                    "links, visibility and distances: what `weft compare` then finds is what they "
                    "took away."});
+        f.group(outputs);
     }
 };
 
@@ -224,11 +229,13 @@ struct NamedPathIntegrator {
         .category = "integrator", .type = Type::name, .help = Type::help};
     RenderTarget target;
     int depth = 2;
+    Outputs outputs;
 
     template <class F>
     constexpr void describe(F&& f) {
         f.group(target);
         f("depth", depth, kDepthAttr);
+        f.group(outputs);
     }
 };
 struct PathtracerType {

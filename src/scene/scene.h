@@ -70,7 +70,8 @@ struct Scene {
     std::vector<SourceLocation> light_locations;
     std::vector<SourceLocation> material_locations;
     std::vector<SourceLocation> texture_locations;
-    std::vector<std::string> instance_names;
+    std::vector<std::string> instance_names; ///< ids; "" where there is none
+    std::vector<std::string> material_names; ///< likewise
 };
 
 } // namespace weft::scene

@@ -105,6 +105,7 @@ struct Instance {
     RayVisibility visibility;
     std::string sets;
     float trace_distance = 0;
+    std::string group;
 
     template <class F>
     constexpr void describe(F&& f) {
@@ -134,6 +135,9 @@ struct Instance {
            .help =
                "What is further away is not there for rays that leave its surface, whether they "
                "look for surfaces or lights: they see the environment. 0 is no limit."});
+        f("group", group,
+          {.help = "Light group of what it emits, as of lights; that of a light made of it comes "
+                   "first."});
     }
 };
 

@@ -101,4 +101,8 @@ concept Choice = std::is_enum_v<E> && requires(E e) {
     choices(e);
 };
 
+/// A list of such values.
+template <class L>
+concept ChoiceList = Choice<typename L::value_type>;
+
 } // namespace weft::schema

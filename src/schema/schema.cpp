@@ -19,6 +19,7 @@ std::string range_text(Attr const& attr) {
 
 std::string kind_text(Field const& field) {
     if (field.kind == "choice") return fmt::format("{}", fmt::join(field.choices, " | "));
+    if (field.kind == "choices") return fmt::format("any of {}", fmt::join(field.choices, " | "));
     if (field.kind == "object") return "<" + field.category + ">";
     if (field.kind == "list") return "any number of <" + field.category + ">";
     return field.kind;

@@ -12,7 +12,7 @@ namespace weft::schema {
 
 struct Field {
     std::string name;
-    std::string kind;          ///< "float", "color", "choice", "texture", "object", "list", ...
+    std::string kind;          ///< "float", "color", "choice", "choices", "object", "list", ...
     std::string category;      ///< for objects and lists: the tag that fills it
     std::string default_value; ///< as written in a file; "" where there is none
     std::vector<std::string> choices;
@@ -36,6 +36,9 @@ struct SchemaBuilder {
         if constexpr (requires { Text::category(); }) field.category = Text::category();
         if constexpr (Choice<T>)
             for (std::string_view c : choices(value)) field.choices.emplace_back(c);
+        else if constexpr (ChoiceList<T>)
+            for (std::string_view c : choices(typename T::value_type()))
+                field.choices.emplace_back(c);
         schema.fields.push_back(std::move(field));
     }
     template <class T>

@@ -73,6 +73,20 @@ std::optional<std::vector<double>> read_numbers(std::string_view text) {
     return values;
 }
 
+std::vector<std::string_view> split_words(std::string_view text) {
+    std::vector<std::string_view> words;
+    for (text = trimmed(text); !text.empty();) {
+        size_t end = 0;
+        while (end < text.size() && text[end] != ',' && !is_space(text[end])) ++end;
+        words.push_back(text.substr(0, end));
+        text = trimmed(text.substr(end));
+        if (text.empty() || text.front() != ',') continue;
+        text = trimmed(text.substr(1));
+        if (text.empty()) words.push_back(text); // a comma with nothing behind it
+    }
+    return words;
+}
+
 std::optional<std::vector<double>> read_components(std::string_view text, int count) {
     auto values = read_numbers(text);
     if (!values) return {};

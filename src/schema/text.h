@@ -28,6 +28,10 @@ std::string numbers_text(std::span<float const> values);
 /// "something else": no parameter may have them).
 std::optional<std::vector<double>> read_numbers(std::string_view text);
 
+/// The words of a list, separated by commas, spaces or both; "" stands for what is missing between
+/// two commas.
+std::vector<std::string_view> split_words(std::string_view text);
+
 /// As read_numbers, for exactly one number or, if `count` > 1, `count` of them.
 std::optional<std::vector<double>> read_components(std::string_view text, int count);
 
@@ -141,6 +145,24 @@ struct TextForm<E> {
             return true;
         }
         return false;
+    }
+};
+
+/// Several of an enumeration's choices, separated by commas or spaces.
+template <Choice E>
+struct TextForm<std::vector<E>> {
+    static constexpr std::string_view kind = "choices", expected = "any of the choices";
+    static std::string write(std::vector<E> const& v) {
+        std::string text;
+        for (E e : v) text += (text.empty() ? "" : ",") + TextForm<E>::write(e);
+        return text;
+    }
+    static bool read(std::string_view text, std::vector<E>& v) {
+        std::vector<E> values;
+        for (std::string_view const word : split_words(text))
+            if (!TextForm<E>::read(word, values.emplace_back())) return false;
+        v = std::move(values);
+        return true;
     }
 };
 

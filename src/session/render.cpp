@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "integrator/pixel_renderer.h"
+#include "session/scene_tags.h"
 
 namespace weft::session {
 
@@ -66,30 +67,36 @@ class TileRenderer {
     /// how many it made.
     template <class GoOn>
     double render(film::Region const& tile, uint32_t from, uint32_t to, GoOn const& go_on) {
+        film::SampleRecord own(film_.layout(), result_.tags);
+        film::SampleRecord* const record = film_.layout().needs_record() ? &own : nullptr;
         int y = tile.from.y;
         for (; y < tile.to.y && go_on(); ++y)
-            for (int x = tile.from.x; x < tile.to.x; ++x) {
-                film::PixelSum sum = film_.pixel(x, y);
-                for (uint32_t s = from; s < to; ++s)
-                    sum.add(checked(renderer_.sample({x, y}, s), {x, y}, s));
-                film_.pixel(x, y) = sum;
-            }
+            for (int x = tile.from.x; x < tile.to.x; ++x)
+                for (uint32_t s = from; s < to; ++s) {
+                    Color const c = renderer_.sample({x, y}, s, record);
+                    bool const good = is_good(c) && (!record || record->finish());
+                    if (!good) [[unlikely]]
+                        report({{x, y}, s, c}, record);
+                    film_.add(x, y, s, good ? c : Color(0), record);
+                }
         return double(y - tile.from.y) * tile.width() * (to - from);
     }
 
   private:
-    Color checked(Color const& c, Vec2i pixel, uint32_t sample) {
-        if (is_finite(c)) [[likely]]
-            return c;
+    bool is_good(Color const& c) const {
+        return is_finite(c) && (min_component(c) >= 0 || !renderer_.follows_light());
+    }
+
+    void report(BadSample const& bad, film::SampleRecord* record) {
+        if (record) record->clear();
         std::lock_guard lock(mutex_);
         ++result_.bad_samples;
         auto& list = result_.first_bad_samples;
-        list.push_back({pixel, sample, c});
+        list.push_back(bad);
         auto key = [](BadSample const& b) { return std::tuple(b.pixel.y, b.pixel.x, b.sample); };
         std::sort(list.begin(), list.end(),
                   [&](auto const& a, auto const& b) { return key(a) < key(b); });
         if (list.size() > 4) list.pop_back();
-        return Color(0);
     }
 
     integrator::PixelRenderer const& renderer_;
@@ -120,10 +127,30 @@ film::Region region_of(world::World const& world, RenderOptions const& options) 
     return c;
 }
 
+film::Layout make_layout(io::RenderJob const& job, RenderOptions const& options,
+                         film::SceneTags const& tags) {
+    auto const from_scene = wanted_aovs(job.integrator);
+    std::vector<film::Aov> aovs(from_scene.begin(), from_scene.end());
+    aovs.insert(aovs.end(), options.aovs.begin(), options.aovs.end());
+    film::LayoutOptions o;
+    o.half_sums = options.half_sums;
+    o.light_groups = tags.light_groups;
+    match(job.integrator, [&](auto const& i) {
+        if constexpr (requires { i.outputs; })
+            o.cryptomatte_levels = i.outputs.cryptomatte_levels;
+        else if (!aovs.empty())
+            throw InputError(job.where, "expected an integrator that follows light for AOVs, found "
+                                        "<integrator type=\"" +
+                                            std::string(i.info.type) + "\">");
+    });
+    return film::Layout(aovs, std::move(o));
+}
+
 /// Says so before the film's sums and the picture made of them ask for more than the machine has.
-void check_memory(film::Region const& region, SourceLocation const& where) {
+void check_memory(film::Region const& region, film::Layout const& layout,
+                  SourceLocation const& where) {
     double const needed = double(region.width()) * region.height() *
-                          double(sizeof(film::PixelSum) + 3 * sizeof(float));
+                          double(film::Film::bytes_per_pixel(layout) + 3 * sizeof(float));
     double const there = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE));
     auto const gib = [](double bytes) { return std::to_string(int64_t(bytes / (1 << 30))); };
     if (there > 0 && needed > there)
@@ -139,16 +166,25 @@ int sample_count(scene::Sampler const& sampler) {
     return match(sampler, [](auto const& s) { return s.count; });
 }
 
+std::span<film::Aov const> wanted_aovs(scene::Integrator const& integrator) {
+    return match(integrator, [](auto const& i) -> std::span<film::Aov const> {
+        if constexpr (requires { i.outputs; }) return i.outputs.aovs;
+        return {};
+    });
+}
+
 RenderResult render(world::World const& world, io::RenderJob const& job,
                     RenderOptions const& options) {
     RenderResult result;
     result.region = region_of(world, options);
-    check_memory(result.region, job.where);
+    result.tags = scene_tags(world);
+    film::Layout const layout = make_layout(job, options, result.tags);
+    check_memory(result.region, layout, job.where);
     result.samples = uint32_t(options.spp > 0 ? options.spp : sample_count(job.sampler));
     integrator::PixelRenderer const renderer(world, job.integrator, job.sampler, options.seed,
                                              int(result.samples));
-    film::Film film(result.region);
-    TileRenderer tiles(renderer, film, result);
+    result.film = film::Film(result.region, layout);
+    TileRenderer tiles(renderer, result.film, result);
     auto const regions = make_tiles(result.region, options.tile_size);
     double const pixels = double(result.region.width()) * result.region.height();
     ProgressMeter meter(options, pixels * result.samples);
@@ -176,8 +212,8 @@ RenderResult render(world::World const& world, io::RenderJob const& job,
     });
     result.cancelled = cancelled() && meter.done() < pixels * result.samples;
     if (!result.cancelled) meter.finish(result.samples);
-    result.image = film.mean();
-    result.least_samples = film.least_samples();
+    result.image = result.film.mean();
+    result.least_samples = result.film.least_samples();
     result.seconds = meter.seconds();
     result.pixel_samples = meter.done();
     return result;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,13 +30,15 @@ struct RenderOptions {
     std::optional<film::Region> crop; ///< pixels of the whole picture
     int threads = 0;                  ///< 0: one per processor
     uint32_t seed = 0;
-    int tile_size = 32; ///< pixels
+    int tile_size = 32;          ///< pixels
+    std::vector<film::Aov> aovs; ///< beside those that the scene asks for
+    bool half_sums = false;      ///< the film keeps the sums that error estimates need
     std::function<void(Progress const&)>
         on_progress; ///< called a few times a second, by one thread at a time
     std::atomic<bool> const* cancel = nullptr; ///< set to stop within a row of a tile
 };
 
-/// A sample whose value was not finite; it counts as black.
+/// A sample whose value was not finite, or negative light; it counts as black.
 struct BadSample {
     Vec2i pixel;
     uint32_t sample;
@@ -43,7 +46,9 @@ struct BadSample {
 };
 
 struct RenderResult {
-    image::Image image; ///< linear RGB of the region
+    image::Image image; ///< the beauty: linear RGB of the region
+    film::Film film;    ///< all channels
+    film::SceneTags tags;
     film::Region region;
     uint32_t samples = 0;       ///< per pixel that were wanted
     uint32_t least_samples = 0; ///< that every pixel has; 0: some pixels are black for want of any
@@ -57,7 +62,11 @@ struct RenderResult {
 /// Samples per pixel that a job asks for.
 int sample_count(scene::Sampler const& sampler);
 
-/// Throws InputError where the crop lies outside of the picture, or memory cannot hold it.
+/// The AOVs that a job asks for.
+std::span<film::Aov const> wanted_aovs(scene::Integrator const& integrator);
+
+/// Throws InputError where the crop lies outside of the picture, memory cannot hold it, or AOVs are
+/// asked of an integrator that follows no light.
 RenderResult render(world::World const& world, io::RenderJob const& job,
                     RenderOptions const& options);
 

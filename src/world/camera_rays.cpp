@@ -86,6 +86,12 @@ Vec2 CameraRays::on_lens(Vec2 u) const {
     return {b.x * std::cos(from) + b.y * std::cos(to), b.x * std::sin(from) + b.y * std::sin(to)};
 }
 
+float CameraRays::depth(Vec3 const& p) const {
+    Vec3 const to_p = p - position();
+    if (projection_ == Projection::Environment) return length(to_p);
+    return dot(to_p, normalize(to_world_.vector({0, 0, 1})));
+}
+
 Ray CameraRays::ray(Vec2 raster, Vec2 lens, float time, float footprint_scale) const {
     Vec3 origin(0), direction(0, 0, 1);
     RayCone cone;

@@ -21,6 +21,8 @@ class CameraRays {
     void resize(Vec2i size) { size_ = size; }
     Vec2i size() const { return size_; } ///< pixels
     Vec3 position() const { return to_world_.origin; }
+    /// How far `p` lies along the camera's axis; for a camera that looks all around, from it.
+    float depth(Vec3 const& p) const;
     bool has_lens() const { return lens_radius_ > 0; } ///< whether `lens` matters to `ray`
 
     /// `raster`: pixels from the upper left corner; `lens` in [0, 1)^2. The ray's cone is

@@ -72,7 +72,9 @@ struct Object {
     bool needs_filter() const { return has_alpha || is_see_through || is_passable(); }
     Affine to_world, to_object;
     bool is_rectangle = false;    ///< a mesh of two triangles that lights know as one
-    int32_t source_instance = -1; ///< of the scene, for messages
+    int32_t source_instance = -1; ///< of the scene
+    int32_t root_instance = -1;   ///< the outermost one, of which it is a member
+    int32_t group_instance = -1;  ///< the one that names its light group; -1: none
     scene::RayVisibility visibility;
     RayMask ray_mask = ~0u;   ///< bits of the rays that meet it
     uint64_t sets = 0;        ///< that it belongs to, as bits

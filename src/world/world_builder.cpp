@@ -119,6 +119,9 @@ void WorldBuilder::add_instance(int32_t index, Inherited const& outer) {
         outer.sets | sets_.declare(instance.sets, scene_.instance_locations[size_t(index)]);
     given.trace_distance =
         outer.trace_distance > 0 ? outer.trace_distance : instance.trace_distance;
+    given.root_instance = outer.root_instance >= 0 ? outer.root_instance : index;
+    given.group_instance = outer.group_instance;
+    if (given.group_instance < 0 && !instance.group.empty()) given.group_instance = index;
     if (auto const* group = std::get_if<scene::Group>(&shape)) {
         for (scene::InstanceId member : group->instances) add_instance(member.index, given);
     } else {
@@ -135,6 +138,8 @@ void WorldBuilder::add_object(scene::Shape const& shape, int32_t instance, Inher
     object.opacity.instance = given.alpha;
     object.priority = given.priority;
     object.source_instance = instance;
+    object.root_instance = given.root_instance;
+    object.group_instance = given.group_instance;
     object.medium = medium_of(given);
     object.visibility = given.visibility;
     object.sets = given.sets;

@@ -15,6 +15,7 @@ class MaterialBench {
     scene::MaterialId add(scene::Material material) {
         scene_.materials.push_back(std::move(material));
         scene_.material_locations.emplace_back();
+        scene_.material_names.emplace_back();
         return {int32_t(scene_.materials.size()) - 1};
     }
     scene::LayerId add(scene::Layer const& layer) {

@@ -1,0 +1,140 @@
+#include "integrator/record.h"
+
+namespace weft::integrator {
+
+namespace {
+
+using film::Component;
+using lobes::LobeFlags;
+
+/// Lobes of less are taken for mirrors by the guides of denoisers; that of Cycles.
+constexpr float kNarrowAlpha = 0.075f;
+/// Where mirrors do at least this part of the scattering, the guides are what is seen in them.
+constexpr float kMirrorShare = 0.75f;
+
+bool is_narrow(lobes::Lobe const& lobe) {
+    return match(lobe.kind, [](auto const& l) {
+        if constexpr (requires { l.distribution.alpha_x; })
+            return std::max(l.distribution.alpha_x, l.distribution.alpha_y) < kNarrowAlpha;
+        return any(l.flags(), LobeFlags::Delta);
+    });
+}
+
+/// The part of the scattering that lobes like mirrors do.
+float mirror_share(lobes::Bsdf const& bsdf) {
+    float share = 0;
+    for (int i = 0; i < bsdf.size(); ++i)
+        if (is_narrow(bsdf[i])) share += bsdf[i].pick;
+    return share;
+}
+
+/// Of all that scatters, by its part in it; that of the surface where nothing does.
+Vec3 mean_normal(lobes::Bsdf const& bsdf) {
+    Vec3 sum(0);
+    for (int i = 0; i < bsdf.size(); ++i) sum += bsdf.frame(bsdf[i]).n * bsdf[i].pick;
+    return bsdf.size() > 0 && length_squared(sum) > 0 ? normalize(sum) : bsdf.frame().n;
+}
+
+Component component(LobeFlags flags, bool reflects) {
+    if (!reflects) return Component::Transmission;
+    return any(flags, LobeFlags::Diffuse) ? Component::Diffuse : Component::Specular;
+}
+
+film::ComponentShares all_of(Component c) {
+    film::ComponentShares shares{};
+    shares[size_t(c)] = Color(1);
+    return shares;
+}
+
+/// The shares of what the smooth lobes send from wi to wo.
+film::ComponentShares shares_of(lobes::Bsdf const& bsdf, Vec3 const& wo, Vec3 const& wi) {
+    film::ComponentShares shares{};
+    Color total;
+    bool const reflects = bsdf.reflects(wi);
+    bsdf.for_each_value(wo, wi, [&](lobes::Lobe const& lobe, Color const& value) {
+        auto const flags = match(lobe.kind, [](auto const& l) { return l.flags(); });
+        shares[size_t(component(flags, reflects))] += value;
+        total += value;
+    });
+    auto const part = [](float of, float all) { return all > 0 ? of / all : 0; };
+    for (Color& s : shares) s = {part(s.r, total.r), part(s.g, total.g), part(s.b, total.b)};
+    return shares;
+}
+
+/// The part of what is seen towards `wi` that comes by way of mirrors.
+float mirror_part(lobes::Bsdf const& bsdf, Vec3 const& wo, Vec3 const& wi) {
+    float mirrors = 0, all = 0;
+    bsdf.for_each_value(wo, wi, [&](lobes::Lobe const& lobe, Color const& value) {
+        float const v = average(value);
+        all += v;
+        if (is_narrow(lobe)) mirrors += v;
+    });
+    return all > 0 ? mirrors / all : 0;
+}
+
+/// What came before does not change the radiance of what is seen, as refraction does.
+Color guide_weight(PathState const& path) { return path.throughput * path.eta_scale; }
+
+} // namespace
+
+void record_surface(world::World const& world, PathState const& path,
+                    shading::SurfacePoint const& point, shading::Shading const& shading,
+                    film::SampleRecord& record) {
+    if (!record.layout().has_surface()) return;
+    bool const first = path.signature.length() == 0;
+    if (!first && record.has_guides()) return;
+    Vec3 const wo = -path.ray.direction;
+    Vec3 const n = mean_normal(shading.bsdf);
+    Color const albedo = shading.bsdf.albedo(wo);
+    if (first) {
+        Vec3 const ng = dot(point.ng, wo) < 0 ? -point.ng : point.ng;
+        record.set_surface(
+            {point.object, world.camera().depth(point.p), point.p, n, ng, point.uv, albedo});
+    }
+    // What shines is as good as seen, however it scatters.
+    if (!is_black(shading.emission) || mirror_share(shading.bsdf) < kMirrorShare)
+        record.set_guides(guide_weight(path) * min(albedo + shading.emission, 1), n);
+}
+
+void record_bounce(PathSettings const& settings, PathState const& path, lobes::Bsdf const& bsdf,
+                   Vec3 const& wo, lobes::BsdfSample const& sample, bool see_through,
+                   film::SampleRecord& record) {
+    bool const first = path.signature.length() == 0;
+    if (see_through && any(sample.flags, LobeFlags::Straight)) { // as if there were nothing
+        if (first) record.forget_surface();
+        return;
+    }
+    bool const delta = any(sample.flags, LobeFlags::Delta);
+    if (first && record.layout().has_light())
+        record.set_shares(
+            delta || settings.by_part
+                ? all_of(component(sample.flags, any(sample.flags, LobeFlags::Reflection)))
+                : shares_of(bsdf, wo, sample.wi));
+    if (record.layout().has_surface() && !record.has_guides() && !delta &&
+        mirror_part(bsdf, wo, sample.wi) < 0.5f)
+        record.set_guides(guide_weight(path) * bsdf.albedo(wo), mean_normal(bsdf));
+}
+
+void record_connection(PathState const& path, lobes::Bsdf const& bsdf, Vec3 const& wo,
+                       Vec3 const& wi, film::SampleRecord& record) {
+    if (path.signature.length() == 0 && record.layout().has_light())
+        record.set_shares(shares_of(bsdf, wo, wi));
+}
+
+void record_connection(PathState const& path, LobeFlags part, bool through,
+                       film::SampleRecord& record) {
+    if (path.signature.length() == 0 && record.layout().has_light())
+        record.set_shares(all_of(component(part, !through)));
+}
+
+void record_volume(PathState const& path, film::SampleRecord& record) {
+    if (path.signature.length() == 1) record.set_shares(all_of(Component::Volume));
+    record.set_guides(guide_weight(path), Vec3(0));
+}
+
+void record_background(PathState const& path, Color const& radiance, film::SampleRecord& record) {
+    if (path.signature.length() == 0) record.set_alpha(1 - average(path.throughput));
+    record.set_guides(guide_weight(path) * clamp(radiance, 0, 1), Vec3(0));
+}
+
+} // namespace weft::integrator

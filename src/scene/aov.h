@@ -1,0 +1,119 @@
+// The pictures beside the beauty that a render can make of the same samples ("arbitrary output
+// variables"). docs/aovs.md says what each holds and how its channels are called in a file.
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "schema/describe.h"
+
+namespace weft::scene {
+
+enum class Aov : uint8_t {
+    beauty,
+    alpha,
+    depth,
+    position,
+    normal,
+    normal_geometric,
+    uv,
+    albedo,
+    emission,
+    background,
+    direct_diffuse,
+    indirect_diffuse,
+    direct_specular,
+    indirect_specular,
+    direct_transmission,
+    indirect_transmission,
+    direct_volume,
+    indirect_volume,
+    direct_subsurface,
+    indirect_subsurface,
+    light_groups,
+    denoise_albedo,
+    denoise_normal,
+    crypto_object,
+    crypto_material,
+    crypto_asset,
+    sample_count,
+    variance,
+    removed
+};
+
+struct AovInfo {
+    std::string_view name, channels, help;
+};
+
+/// In the order of `Aov`.
+inline constexpr std::array<AovInfo, 29> kAovs{{
+    {"beauty", "R G B", "The picture itself; always there."},
+    {"alpha", "A",
+     "How much of the pixel is covered: holes of opacity and the background are not."},
+    {"depth", "Z",
+     "Distance along the camera's axis to the nearest surface; 1e10 where there is none."},
+    {"position", "P.X P.Y P.Z", "Place of the nearest surface in world space."},
+    {"normal", "N.X N.Y N.Z", "Mean shading normal of the first surface, in world space."},
+    {"normal_geometric", "Ng.X Ng.Y Ng.Z",
+     "Mean normal of the first surface itself, without normal maps and smoothing."},
+    {"uv", "UV.U UV.V", "Texture coordinates of the nearest surface."},
+    {"albedo", "albedo.R ...", "The part of light that the first surface scatters."},
+    {"emission", "emission.R ...", "Light of surfaces that the camera sees straight."},
+    {"background", "background.R ...",
+     "Light from infinitely far away that the camera sees straight."},
+    {"direct_diffuse", "direct_diffuse.R ...", "Light over one diffuse reflection."},
+    {"indirect_diffuse", "indirect_diffuse.R ...",
+     "Light over more bounces, the first (from the camera) a diffuse reflection."},
+    {"direct_specular", "direct_specular.R ...", "Likewise for glossy and mirror reflection."},
+    {"indirect_specular", "indirect_specular.R ...", "Likewise for glossy and mirror reflection."},
+    {"direct_transmission", "direct_transmission.R ...",
+     "Likewise for all that goes through a surface."},
+    {"indirect_transmission", "indirect_transmission.R ...",
+     "Likewise for all that goes through a surface."},
+    {"direct_volume", "direct_volume.R ...", "Likewise for scattering in media."},
+    {"indirect_volume", "indirect_volume.R ...", "Likewise for scattering in media."},
+    {"direct_subsurface", "direct_subsurface.R ...", "Likewise for scattering below a surface."},
+    {"indirect_subsurface", "indirect_subsurface.R ...",
+     "Likewise for scattering below a surface."},
+    {"light_groups", "light_NAME.R ...",
+     "One picture per `group` of lights, and light_default of all others; they add up to the "
+     "beauty."},
+    {"denoise_albedo", "denoise_albedo.R ...",
+     "Guide for denoisers: albedo of the first surface that is no mirror or clear glass, seen by "
+     "way of those."},
+    {"denoise_normal", "denoise_normal.X ...", "Guide for denoisers: normal of that surface."},
+    {"crypto_object", "CryptoObject00.R ...", "Cryptomatte by the id of instances."},
+    {"crypto_material", "CryptoMaterial00.R ...", "Cryptomatte by the id of materials."},
+    {"crypto_asset", "CryptoAsset00.R ...",
+     "Cryptomatte by the id of the outermost instance: a group is one asset."},
+    {"sample_count", "sample_count", "How many samples the pixel has."},
+    {"variance", "variance.R ...",
+     "Estimated variance of the beauty: of the pixel's mean, not of one sample."},
+    {"removed", "removed.R ...", "Light that clamping took out of the beauty."},
+}};
+
+constexpr auto choices(Aov) {
+    std::array<std::string_view, kAovs.size()> names{};
+    for (size_t i = 0; i < names.size(); ++i) names[i] = kAovs[i].name;
+    return names;
+}
+
+/// What an integrator that follows light can make beside its picture.
+struct Outputs {
+    std::vector<Aov> aovs;
+    int cryptomatte_levels = 6;
+
+    template <class F>
+    constexpr void describe(F&& f) {
+        f("aovs", aovs,
+          {.help = "Further pictures to make of the same samples, for example `albedo, normal, "
+                   "depth`; all go into one EXR file. `weft help aov` explains each."});
+        f("cryptomatteLevels", cryptomatte_levels,
+          {.min = 2,
+           .max = 32,
+           .help = "How many objects of one pixel a Cryptomatte can tell apart."});
+    }
+};
+
+} // namespace weft::scene

@@ -1,0 +1,73 @@
+#include "session/scene_tags.h"
+
+#include <algorithm>
+
+#include "film/cryptomatte.h"
+
+namespace weft::session {
+
+namespace {
+
+uint16_t group_index(std::vector<std::string>& groups, std::string const& name) {
+    if (name.empty()) return 0;
+    auto const at = std::find(groups.begin(), groups.end(), name);
+    if (at != groups.end()) return uint16_t(at - groups.begin());
+    groups.push_back(name);
+    return uint16_t(groups.size() - 1);
+}
+
+void add_light_groups(world::World const& world, film::SceneTags& tags) {
+    auto& groups = tags.light_groups;
+    auto const of_object = [&](world::Object const& o) -> uint16_t {
+        if (o.group_instance < 0) return 0;
+        return group_index(groups, world.scene().instances[size_t(o.group_instance)].group);
+    };
+    for (size_t i = 0; i < world.lights().size(); ++i)
+        tags.group_of_light.push_back(group_index(groups, world.lights()[int32_t(i)].controls.group));
+    for (uint32_t i = 0; i < world.statistics().objects; ++i) {
+        world::Object const& o = world.object(i);
+        tags.group_of_object.push_back(of_object(o));
+        if (o.light >= 0 && world.lights()[o.light].controls.group.empty())
+            tags.group_of_light[size_t(o.light)] = tags.group_of_object.back();
+    }
+    if (groups.size() > UINT16_MAX) throw InputError("expected at most 65535 light groups");
+}
+
+std::string instance_name(scene::Scene const& scene, int32_t instance) {
+    std::string const& name = scene.instance_names[size_t(instance)];
+    return name.empty() ? "instance_" + std::to_string(instance) : name;
+}
+
+std::string object_name(scene::Scene const& scene, world::Object const& o) {
+    if (o.source_instance == o.root_instance) return instance_name(scene, o.root_instance);
+    return instance_name(scene, o.root_instance) + "/" + instance_name(scene, o.source_instance);
+}
+
+std::string material_name(scene::Scene const& scene, world::Object const& o) {
+    if (!o.material) return "";
+    size_t const index = size_t(o.material.index);
+    if (std::string const& name = scene.material_names[index]; !name.empty()) return name;
+    return std::string(match(scene.materials[index], [](auto const& m) { return m.info.type; })) +
+           "_" + std::to_string(index);
+}
+
+} // namespace
+
+film::SceneTags scene_tags(world::World const& world) {
+    film::SceneTags tags;
+    add_light_groups(world, tags);
+    scene::Scene const& scene = world.scene();
+    for (uint32_t i = 0; i < world.statistics().objects; ++i) {
+        world::Object const& o = world.object(i);
+        std::string const names[film::kCryptomattes]{object_name(scene, o), material_name(scene, o),
+                                                     instance_name(scene, o.root_instance)};
+        for (size_t k = 0; k < film::kCryptomattes; ++k) {
+            uint32_t const id = names[k].empty() ? 0 : film::cryptomatte_id(names[k]);
+            tags.cryptomattes[k].id_of_object.push_back(id);
+            if (id != 0) tags.cryptomattes[k].manifest[names[k]] = id;
+        }
+    }
+    return tags;
+}
+
+} // namespace weft::session

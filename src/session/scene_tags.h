@@ -1,0 +1,14 @@
+// What the things of a scene are called in the film: light groups, Cryptomatte ids.
+#pragma once
+
+#include "film/sample_record.h"
+#include "world/world.h"
+
+namespace weft::session {
+
+/// Objects are called by the id of their instance, behind that of the outermost instance where it
+/// is a member of a group ("robot/arm"); materials by theirs, or else by their type and place in
+/// the file ("diffuse_3"); assets by the outermost instance's.
+film::SceneTags scene_tags(world::World const& world);
+
+} // namespace weft::session
