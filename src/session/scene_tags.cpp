@@ -23,7 +23,8 @@ void add_light_groups(world::World const& world, film::SceneTags& tags) {
         return group_index(groups, world.scene().instances[size_t(o.group_instance)].group);
     };
     for (size_t i = 0; i < world.lights().size(); ++i)
-        tags.group_of_light.push_back(group_index(groups, world.lights()[int32_t(i)].controls.group));
+        tags.group_of_light.push_back(
+            group_index(groups, world.lights()[int32_t(i)].controls.group));
     for (uint32_t i = 0; i < world.statistics().objects; ++i) {
         world::Object const& o = world.object(i);
         tags.group_of_object.push_back(of_object(o));
