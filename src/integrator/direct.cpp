@@ -91,7 +91,7 @@ void add(PathSettings const& settings, PathState const& path, Connection const& 
          Scattered const& scattered, Color const& arriving, film::SampleSink& sink) {
     auto const add_value = [&](Color const& value) {
         sink.add({clamped(settings, value * arriving, c.bounces), c.light.light, path.signature, -1,
-                  c.point.surface != nullptr});
+                  true, c.point.surface != nullptr});
     };
     film::SampleRecord* const record = c.point.bsdf ? sink.record() : nullptr;
     if (!c.point.bsdf || !settings.by_part) {

@@ -12,16 +12,6 @@ namespace {
 
 using sampling::Dimension;
 
-film::Bounce bounce_kind(lobes::LobeFlags flags) {
-    using lobes::LobeFlags;
-    bool const through = any(flags, LobeFlags::Transmission);
-    if (any(flags, LobeFlags::Delta))
-        return through ? film::Bounce::SpecularTransmission : film::Bounce::Specular;
-    if (any(flags, LobeFlags::Glossy))
-        return through ? film::Bounce::GlossyTransmission : film::Bounce::Glossy;
-    return through ? film::Bounce::DiffuseTransmission : film::Bounce::Diffuse;
-}
-
 /// Emission of a surface that the ray met.
 void add_emission(world::World const& world, PathSettings const& settings, PathState const& path,
                   shading::SurfacePoint const& point, Color const& emission,
