@@ -22,8 +22,9 @@ void add_emission(world::World const& world, PathSettings const& settings, PathS
         light >= 0 && path.pdf > 0 ? world.lights().pdf(light, path.p, path.n, point) : 0;
     float const weight = found_weight(settings.strategy, path, light_pdf) *
                          found_factor(world, settings, path, light, length(point.p - path.p));
-    sink.add({clamped(settings, path.throughput * emission * weight, path.signature.length()),
-              light, path.signature, int32_t(point.object)});
+    add_clamped(settings,
+                {path.throughput * emission * weight, light, path.signature, int32_t(point.object)},
+                sink);
 }
 
 /// Light from infinitely far away along a ray that met nothing.
@@ -35,9 +36,8 @@ void add_background(world::World const& world, PathSettings const& settings, Pat
             seen += radiance;
             float const weight = found_weight(settings.strategy, path, pdf) *
                                  found_factor(world, settings, path, light, kInfinity);
-            sink.add(
-                {clamped(settings, path.throughput * radiance * weight, path.signature.length()),
-                 light, path.signature});
+            add_clamped(settings, {path.throughput * radiance * weight, light, path.signature},
+                        sink);
         });
     if (sink.record()) record_background(path, seen, *sink.record());
 }
