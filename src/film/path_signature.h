@@ -43,8 +43,10 @@ struct Contribution {
     int32_t light = -1; ///< index of the light; -1: an emissive object that is no light
     PathSignature const& path;
     int32_t object = -1; ///< index of the emissive object that a ray met; -1: none
-    /// Light sampling connected the path to the light at a surface, a bounce that `path` does not
-    /// hold: several lobes may share it.
+    /// Light sampling found it, rather than a ray.
+    bool sampled = false;
+    /// It came over a surface that `path` does not hold as a bounce, since several lobes may share
+    /// it.
     bool over_surface = false;
 
     /// How often the light was scattered.

@@ -16,7 +16,7 @@
 #include "base/color.h"
 #include "base/vec.h"
 #include "film/layout.h"
-#include "film/path_signature.h"
+#include "film/path_log.h"
 
 namespace weft::film {
 
@@ -63,6 +63,13 @@ class SampleRecord {
 
     void add(Contribution const& c) {
         if (layout_.has_light()) add_light(c);
+        if (log_)
+            log_->push_back({.kind = PathEvent::Kind::Light,
+                             .value = c.value,
+                             .sampled = c.sampled,
+                             .object = c.object,
+                             .light = c.light,
+                             .bounces = c.bounces()});
     }
     void add_removed(Color const& value) { add_to(Aov::removed, value); }
     /// Before what comes over the path's first bounce is added.
@@ -77,6 +84,10 @@ class SampleRecord {
     /// The guides of a denoiser; later calls change nothing.
     void set_guides(Color const& albedo, Vec3 const& normal);
     bool has_guides() const { return has_guides_; }
+
+    /// Keeps what happens along paths from here on; null: nothing.
+    void keep_log(PathLog* log) { log_ = log; }
+    PathLog* log() const { return log_; }
 
     /// Writes what was set into `values`: once, when the path is done. False where a number is not
     /// finite; all is 0 then.
@@ -105,6 +116,7 @@ class SampleRecord {
     FirstSurface surface_;
     Color guide_albedo_;
     Vec3 guide_normal_{0, 0, 0};
+    PathLog* log_ = nullptr;
     float alpha_ = 1;
     bool has_surface_ = false, has_guides_ = false;
 };

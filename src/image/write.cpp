@@ -28,6 +28,20 @@ void add_metadata(OIIO::ImageSpec& spec, Metadata const& metadata) {
     for (auto const& [name, value] : metadata) spec.attribute(name, value);
 }
 
+void add_header(OIIO::ImageSpec& spec, ExrHeader const& header) {
+    add_metadata(spec, header.texts);
+    if (header.chromaticities)
+        spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8),
+                       header.chromaticities->data());
+    if (header.world_to_camera)
+        spec.attribute("worldtocamera", OIIO::TypeDesc::TypeMatrix, header.world_to_camera->data());
+    if (header.full_width == 0) return;
+    spec.x = header.x;
+    spec.y = header.y;
+    spec.full_width = header.full_width;
+    spec.full_height = header.full_height;
+}
+
 std::vector<std::string> channel_names(Image const& image) {
     if (!image.names.empty()) return image.names;
     switch (image.channels) {
@@ -147,6 +161,13 @@ void write_hdr(std::string const& path, Image const& image, Metadata const& meta
 
 void write_exr(std::string const& path, int width, int height, std::span<Channel const> channels,
                Metadata const& metadata, Precision precision) {
+    ExrHeader header;
+    header.texts = metadata;
+    write_exr(path, width, height, channels, header, precision);
+}
+
+void write_exr(std::string const& path, int width, int height, std::span<Channel const> channels,
+               ExrHeader const& header, Precision precision) {
     require_extension(path, ".exr");
     OIIO::ImageSpec spec(width, height, int(channels.size()),
                          precision == Precision::half ? OIIO::TypeDesc::HALF
@@ -155,7 +176,7 @@ void write_exr(std::string const& path, int width, int height, std::span<Channel
     for (Channel const& c : channels) spec.channelnames.push_back(c.name);
     spec.attribute("compression", "zip");
     spec.attribute("DateTime", ""); // or else OpenImageIO writes the time of day
-    add_metadata(spec, metadata);
+    add_header(spec, header);
     write_pixels(path, spec, [&](OIIO::ImageOutput& output) {
         // In strips, so that an image with many layers is never held twice; 64 lines are whole
         // blocks of the compression.
@@ -169,7 +190,8 @@ void write_exr(std::string const& path, int width, int height, std::span<Channel
             for (size_t c = 0; c < n; ++c)
                 for (size_t i = 0; i < count; ++i)
                     strip[i * n + c] = channels[c].data[(first + i) * channels[c].stride];
-            if (!output.write_scanlines(y, end, 0, OIIO::TypeDesc::FLOAT, strip.data()))
+            if (!output.write_scanlines(spec.y + y, spec.y + end, 0, OIIO::TypeDesc::FLOAT,
+                                        strip.data()))
                 return false;
         }
         return true;
@@ -177,6 +199,13 @@ void write_exr(std::string const& path, int width, int height, std::span<Channel
 }
 
 void write_exr(std::string const& path, Image const& image, Metadata const& metadata,
+               Precision precision) {
+    ExrHeader header;
+    header.texts = metadata;
+    write_exr(path, image, header, precision);
+}
+
+void write_exr(std::string const& path, Image const& image, ExrHeader const& header,
                Precision precision) {
     assert(is_whole(image));
     std::vector<std::string> const names = channel_names(image);
@@ -186,7 +215,7 @@ void write_exr(std::string const& path, Image const& image, Metadata const& meta
     std::vector<Channel> channels;
     for (size_t c = 0; c < names.size(); ++c)
         channels.push_back({names[c], image.pixels.data() + c, names.size()});
-    write_exr(path, image.width, image.height, channels, metadata, precision);
+    write_exr(path, image.width, image.height, channels, header, precision);
 }
 
 void write_png(std::string const& path, Image const& image, Metadata const& metadata) {

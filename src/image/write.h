@@ -8,6 +8,8 @@
 
 #include "image/image.h"
 
+#include <array>
+#include <optional>
 #include <span>
 
 namespace weft::image {
@@ -21,15 +23,36 @@ struct Channel {
 
 enum class Precision { half, float32 };
 
+/// Primaries and white as x and y of red, green, blue and white.
+using Chromaticities = std::array<float, 8>;
+inline constexpr Chromaticities kRec709{0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 0.3290f};
+
+/// What an EXR file's header says beside its channels.
+struct ExrHeader {
+    Metadata texts;
+    std::optional<Chromaticities> chromaticities;
+    /// From world to camera space (x right, y up, z into the picture), row by row, to be multiplied
+    /// by row vectors.
+    std::optional<std::array<float, 16>> world_to_camera;
+    /// The whole picture (the display window), where the pixels (the data window) are a part of it
+    /// whose corner is `x`, `y`; 0: they are the whole.
+    int x = 0, y = 0, full_width = 0, full_height = 0;
+};
+
 /// A scanline EXR with ZIP compression (16 lines each), linear numbers as they are, not-a-number
 /// included. Halves saturate at infinity beyond 65504. Throws InputError where the extension of
 /// `path` is not .exr.
 void write_exr(std::string const& path, int width, int height, std::span<Channel const> channels,
                Metadata const& metadata = {}, Precision precision = Precision::float32);
 
+void write_exr(std::string const& path, int width, int height, std::span<Channel const> channels,
+               ExrHeader const& header, Precision precision = Precision::float32);
+
 /// The same for an interleaved image, its channels named by `names` or else Y, YA, RGB, RGBA
 /// by their number; more than four must be named.
 void write_exr(std::string const& path, Image const& image, Metadata const& metadata = {},
+               Precision precision = Precision::float32);
+void write_exr(std::string const& path, Image const& image, ExrHeader const& header,
                Precision precision = Precision::float32);
 
 /// An 8-bit PNG of a linear image with 1 to 4 channels: clipped to [0, 1], encoded as sRGB and

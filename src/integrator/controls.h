@@ -47,4 +47,13 @@ inline Color clamped(PathSettings const& settings, Color const& value, uint32_t 
                                                          : value;
 }
 
+/// Hands light to the film, no greater than it may be, and tells it what it does not get.
+inline void add_clamped(PathSettings const& settings, film::Contribution c,
+                        film::SampleSink& sink) {
+    Color const found = c.value;
+    c.value = clamped(settings, found, c.bounces());
+    sink.add(c);
+    if (sink.record() && c.value != found) sink.add_removed(found - c.value);
+}
+
 } // namespace weft::integrator

@@ -90,8 +90,10 @@ Color transmitted(world::World const& world, PathSettings const& settings, PathS
 void add(PathSettings const& settings, PathState const& path, Connection const& c,
          Scattered const& scattered, Color const& arriving, film::SampleSink& sink) {
     auto const add_value = [&](Color const& value) {
-        sink.add({clamped(settings, value * arriving, c.bounces), c.light.light, path.signature, -1,
-                  c.point.surface != nullptr});
+        add_clamped(
+            settings,
+            {value * arriving, c.light.light, path.signature, -1, true, c.point.surface != nullptr},
+            sink);
     };
     film::SampleRecord* const record = c.point.bsdf ? sink.record() : nullptr;
     if (!c.point.bsdf || !settings.by_part) {

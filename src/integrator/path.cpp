@@ -12,16 +12,6 @@ namespace {
 
 using sampling::Dimension;
 
-film::Bounce bounce_kind(lobes::LobeFlags flags) {
-    using lobes::LobeFlags;
-    bool const through = any(flags, LobeFlags::Transmission);
-    if (any(flags, LobeFlags::Delta))
-        return through ? film::Bounce::SpecularTransmission : film::Bounce::Specular;
-    if (any(flags, LobeFlags::Glossy))
-        return through ? film::Bounce::GlossyTransmission : film::Bounce::Glossy;
-    return through ? film::Bounce::DiffuseTransmission : film::Bounce::Diffuse;
-}
-
 /// Emission of a surface that the ray met.
 void add_emission(world::World const& world, PathSettings const& settings, PathState const& path,
                   shading::SurfacePoint const& point, Color const& emission,
@@ -32,8 +22,9 @@ void add_emission(world::World const& world, PathSettings const& settings, PathS
         light >= 0 && path.pdf > 0 ? world.lights().pdf(light, path.p, path.n, point) : 0;
     float const weight = found_weight(settings.strategy, path, light_pdf) *
                          found_factor(world, settings, path, light, length(point.p - path.p));
-    sink.add({clamped(settings, path.throughput * emission * weight, path.signature.length()),
-              light, path.signature, int32_t(point.object)});
+    add_clamped(settings,
+                {path.throughput * emission * weight, light, path.signature, int32_t(point.object)},
+                sink);
 }
 
 /// Light from infinitely far away along a ray that met nothing.
@@ -45,9 +36,8 @@ void add_background(world::World const& world, PathSettings const& settings, Pat
             seen += radiance;
             float const weight = found_weight(settings.strategy, path, pdf) *
                                  found_factor(world, settings, path, light, kInfinity);
-            sink.add(
-                {clamped(settings, path.throughput * radiance * weight, path.signature.length()),
-                 light, path.signature});
+            add_clamped(settings, {path.throughput * radiance * weight, light, path.signature},
+                        sink);
         });
     if (sink.record()) record_background(path, seen, *sink.record());
 }

@@ -9,6 +9,9 @@
 
 namespace weft::integrator {
 
+/// What a scattering by lobes of these flags is called.
+film::Bounce bounce_kind(lobes::LobeFlags flags);
+
 struct PathSettings {
     scene::Strategy strategy = scene::Strategy::mis;
     uint32_t depth = 16;         ///< vertices seen along a path; the first hit is 1

@@ -152,6 +152,11 @@ Color PixelRenderer::sample(Vec2i pixel, uint32_t sample, film::SampleRecord* re
             return trace(i, ray, alpha_seed);
         } else {
             if (record) record->clear();
+            if (record && record->log())
+                record->log()->push_back({.kind = film::PathEvent::Kind::Camera,
+                                          .p = ray.origin,
+                                          .direction = ray.direction,
+                                          .value = Color(1)});
             film::SampleSink sink(record);
             trace_path(world_, path_, ray, media_, u, sink);
             return sink.beauty();

@@ -77,9 +77,25 @@ Color guide_weight(PathState const& path) { return path.throughput * path.eta_sc
 
 } // namespace
 
+film::Bounce bounce_kind(lobes::LobeFlags flags) {
+    using lobes::LobeFlags;
+    bool const through = any(flags, LobeFlags::Transmission);
+    if (any(flags, LobeFlags::Delta))
+        return through ? film::Bounce::SpecularTransmission : film::Bounce::Specular;
+    if (any(flags, LobeFlags::Glossy))
+        return through ? film::Bounce::GlossyTransmission : film::Bounce::Glossy;
+    return through ? film::Bounce::DiffuseTransmission : film::Bounce::Diffuse;
+}
+
 void record_surface(world::World const& world, PathState const& path,
                     shading::SurfacePoint const& point, shading::Shading const& shading,
                     film::SampleRecord& record) {
+    if (record.log())
+        record.log()->push_back({.kind = film::PathEvent::Kind::Surface,
+                                 .p = point.p,
+                                 .direction = shading.bsdf.frame().n,
+                                 .value = path.throughput,
+                                 .object = int32_t(point.object)});
     if (!record.layout().has_surface()) return;
     bool const first = path.signature.length() == 0;
     if (!first && record.has_guides()) return;
@@ -100,11 +116,20 @@ void record_bounce(PathSettings const& settings, PathState const& path, lobes::B
                    Vec3 const& wo, lobes::BsdfSample const& sample, bool see_through,
                    film::SampleRecord& record) {
     bool const first = path.signature.length() == 0;
-    if (see_through && any(sample.flags, LobeFlags::Straight)) { // as if there were nothing
+    bool const straight = see_through && any(sample.flags, LobeFlags::Straight);
+    bool const delta = any(sample.flags, LobeFlags::Delta);
+    if (record.log())
+        record.log()->push_back(
+            {.kind = straight ? film::PathEvent::Kind::Straight : film::PathEvent::Kind::Bounce,
+             .direction = sample.wi,
+             .value = sample.weight,
+             .pdf = sample.pdf,
+             .delta = delta,
+             .bounce = bounce_kind(sample.flags)});
+    if (straight) { // as if there were nothing
         if (first) record.forget_surface();
         return;
     }
-    bool const delta = any(sample.flags, LobeFlags::Delta);
     if (first && record.layout().has_light())
         record.set_shares(
             delta || settings.by_part
@@ -128,12 +153,22 @@ void record_connection(PathState const& path, LobeFlags part, bool through,
 }
 
 void record_volume(PathState const& path, film::SampleRecord& record) {
+    if (record.log())
+        record.log()->push_back({.kind = film::PathEvent::Kind::Medium,
+                                 .p = path.ray.origin,
+                                 .value = path.throughput});
     if (path.signature.length() == 1) record.set_shares(all_of(Component::Volume));
     record.set_guides(guide_weight(path), Vec3(0));
 }
 
 void record_background(PathState const& path, Color const& radiance, film::SampleRecord& record) {
-    if (path.signature.length() == 0) record.set_alpha(1 - average(path.throughput));
+    if (record.log())
+        record.log()->push_back({.kind = film::PathEvent::Kind::Background,
+                                 .direction = path.ray.direction,
+                                 .value = path.throughput});
+    // Divided, so that nothing in the way is exactly 0.
+    Color const& t = path.throughput;
+    if (path.signature.length() == 0) record.set_alpha(1 - (t.r + t.g + t.b) / 3);
     record.set_guides(guide_weight(path) * clamp(radiance, 0, 1), Vec3(0));
 }
 

@@ -39,12 +39,18 @@ std::string instance_name(scene::Scene const& scene, int32_t instance) {
     return name.empty() ? "instance_" + std::to_string(instance) : name;
 }
 
-std::string object_name(scene::Scene const& scene, world::Object const& o) {
+} // namespace
+
+std::string object_name(world::World const& world, uint32_t object) {
+    scene::Scene const& scene = world.scene();
+    world::Object const& o = world.object(object);
     if (o.source_instance == o.root_instance) return instance_name(scene, o.root_instance);
     return instance_name(scene, o.root_instance) + "/" + instance_name(scene, o.source_instance);
 }
 
-std::string material_name(scene::Scene const& scene, world::Object const& o) {
+std::string material_name(world::World const& world, uint32_t object) {
+    scene::Scene const& scene = world.scene();
+    world::Object const& o = world.object(object);
     if (!o.material) return "";
     size_t const index = size_t(o.material.index);
     if (std::string const& name = scene.material_names[index]; !name.empty()) return name;
@@ -52,15 +58,13 @@ std::string material_name(scene::Scene const& scene, world::Object const& o) {
            "_" + std::to_string(index);
 }
 
-} // namespace
-
 film::SceneTags scene_tags(world::World const& world) {
     film::SceneTags tags;
     add_light_groups(world, tags);
     scene::Scene const& scene = world.scene();
     for (uint32_t i = 0; i < world.statistics().objects; ++i) {
         world::Object const& o = world.object(i);
-        std::string const names[film::kCryptomattes]{object_name(scene, o), material_name(scene, o),
+        std::string const names[film::kCryptomattes]{object_name(world, i), material_name(world, i),
                                                      instance_name(scene, o.root_instance)};
         for (size_t k = 0; k < film::kCryptomattes; ++k) {
             uint32_t const id = names[k].empty() ? 0 : film::cryptomatte_id(names[k]);

@@ -10,5 +10,8 @@ namespace weft::session {
 /// is a member of a group ("robot/arm"); materials by theirs, or else by their type and place in
 /// the file ("diffuse_3"); assets by the outermost instance's.
 film::SceneTags scene_tags(world::World const& world);
+std::string object_name(world::World const& world, uint32_t object);
+/// "" where it has no material.
+std::string material_name(world::World const& world, uint32_t object);
 
 } // namespace weft::session

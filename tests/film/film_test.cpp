@@ -265,10 +265,10 @@ TEST(SampleRecord, TellsLightApart) {
     sink.add({Color(1), -1, path, 1}); // an emissive object
     sink.add({Color(2), 0, path, -1}); // the background
     record.set_shares({Color(0.25f), Color(0.75f), Color(0), Color(0), Color(0)});
-    sink.add({Color(4), 1, path, -1, true}); // a light sampled at the first surface
+    sink.add({Color(4), 1, path, -1, true, true}); // a light sampled at the first surface
     path.append(Bounce::Glossy);
     sink.add({Color(8), 2, path, 2});
-    sink.add({Color(16), 2, path, -1, true});
+    sink.add({Color(16), 2, path, -1, true, true});
     sink.add_removed(Color(32));
     ASSERT_TRUE(record.finish());
     EXPECT_EQ(first_value(record, Aov::emission), 1);

@@ -7,6 +7,7 @@
 
 #include "apps/weft/commands.h"
 #include "apps/weft/material_library.h"
+#include "apps/weft/picture_file.h"
 #include "base/error.h"
 #include "io/scene_file.h"
 
@@ -16,8 +17,10 @@ namespace {
 
 int list_types(std::vector<schema::Schema> const& all) {
     fmt::print("Topics\n  {:<16} How would it feel to the touch? Starting values for `disney`, and "
-               "{} ready materials.\n\n",
-               "materials", material_library().size());
+               "{} ready materials.\n"
+               "  {:<16} Pictures of depth, normals, components of light, ids: what `--aov` and "
+               "`aovs` make.\n\n",
+               "materials", material_library().size(), "aov");
     fmt::print("Types of the scene file; `weft help TYPE` explains one, `weft --help` the command "
                "line.\n");
     std::string_view category;
@@ -47,8 +50,12 @@ int help(HelpArguments const& args) {
         fmt::print("{}", materials_text(args.markdown));
         return kDone;
     }
-    std::vector<std::string> known{"materials"};
+    std::vector<std::string> known{"materials", "aov"};
     bool found = false;
+    if (name == "aov") {
+        fmt::print("{}\n", aovs_text());
+        found = true;
+    }
     for (schema::Schema const& s : all) {
         for (std::string_view n : {s.info.type, s.info.category})
             if (!n.empty() && std::find(known.begin(), known.end(), n) == known.end())

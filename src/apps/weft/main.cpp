@@ -1,4 +1,5 @@
-// The command line: `weft render`, `test`, `info`, `compare`, `maketx`, `help`, `schema`, `docs`.
+// The command line: `weft render`, `replay`, `test`, `info`, `compare`, `maketx`, `help`, `schema`,
+// `docs`.
 #include <cstdio>
 
 #include "apps/weft/commands.h"
@@ -14,6 +15,7 @@ int main(int argc, char** argv) {
     app.footer("Start with:  weft render SCENE.xml    weft help");
     Command chosen;
     add_render_command(app, chosen);
+    add_replay_command(app, chosen);
     add_test_command(app, chosen);
     add_info_command(app, chosen);
     add_compare_command(app, chosen);

@@ -5,6 +5,7 @@
 
 #include "apps/weft/commands.h"
 #include "apps/weft/interrupt.h"
+#include "apps/weft/picture_file.h"
 #include "apps/weft/progress_line.h"
 #include "apps/weft/scene_loading.h"
 #include "apps/weft/texture_options.h"
@@ -22,7 +23,7 @@ struct RenderArguments {
     std::vector<std::string> outputs;
     std::string size, crop;
     std::string progress = "auto";
-    std::vector<std::string> overrides;
+    std::vector<std::string> overrides, aovs;
     std::string isa;
     TextureArguments textures;
     session::RenderOptions options;
@@ -58,18 +59,28 @@ std::vector<std::string> output_paths(RenderArguments const& a, io::RenderJob co
     return paths;
 }
 
-/// What is written beside the pixels.
-image::Metadata metadata(RenderArguments const& a, session::RenderResult const& r) {
-    return {{"Software", "Weft " WEFT_VERSION},
-            {"weft:seed", std::to_string(a.options.seed)},
-            {"weft:samplesPerPixel", std::to_string(r.least_samples)},
-            {"weft:complete", r.cancelled ? "false" : "true"}};
+/// AOVs need a file that can hold them.
+void check_aovs(RenderArguments const& a, io::RenderJob const& job,
+                std::vector<std::string> const& paths) {
+    bool const wanted = !a.options.aovs.empty() || !session::wanted_aovs(job.integrator).empty();
+    auto const is_exr = [](std::string const& path) {
+        return fs::path(path).extension() == ".exr";
+    };
+    if (!wanted || std::any_of(paths.begin(), paths.end(), is_exr)) return;
+    if (!a.options.aovs.empty())
+        throw InputError("--aov expects an output that can hold further channels (.exr), found '" +
+                         paths.front() + "'");
+    fmt::print(stderr, "warning: the AOVs that the scene asks for are not written: only .exr files "
+                       "hold them\n");
 }
 
 void report_bad_samples(session::RenderResult const& r, uint32_t seed) {
     if (r.bad_samples == 0) return;
-    fmt::print(stderr, "warning: {} samples were not finite and count as black; the first:\n",
-               r.bad_samples);
+    fmt::print(
+        stderr,
+        "warning: {} samples were not finite or negative light and count as black; `weft replay` "
+        "traces one again; the first:\n",
+        r.bad_samples);
     for (auto const& b : r.first_bad_samples)
         fmt::print(stderr, "  pixel {},{} sample {} seed {}: {} {} {}\n", b.pixel.x, b.pixel.y,
                    b.sample, seed, b.value.r, b.value.g, b.value.b);
@@ -79,6 +90,7 @@ int render_job(RenderArguments& a, io::RenderJob const& job, bool only_job,
                image::TextureCache const& textures) {
     auto const paths = output_paths(a, job, only_job);
     for (std::string const& path : paths) image::check_writable(path);
+    check_aovs(a, job, paths);
     auto const world = world::World::commit(job.scene, {a.isa, parse_size(a.size, *job.scene)});
     for (std::string const& lint : lint_warnings(*world)) fmt::print(stderr, "warning: {}\n", lint);
 
@@ -97,7 +109,7 @@ int render_job(RenderArguments& a, io::RenderJob const& job, bool only_job,
         return kInterrupted;
     }
     for (std::string const& path : paths) {
-        image::write_image(path, result.image, metadata(a, result));
+        write_picture(path, result, job, *world, a.options.seed);
         fmt::print("{}\n", path);
     }
     fmt::print(stderr, "{} x {} pixels, {} samples each: {}, {} samples/s\n", result.region.width(),
@@ -113,6 +125,12 @@ int render_job(RenderArguments& a, io::RenderJob const& job, bool only_job,
 }
 
 int run(RenderArguments& a) {
+    if (std::find(a.aovs.begin(), a.aovs.end(), "list") != a.aovs.end()) {
+        fmt::print("{}", aovs_text());
+        return kDone;
+    }
+    if (a.scene.empty()) throw InputError("weft render expects a scene file, found none");
+    a.options.aovs = parse_aovs(a.aovs);
     a.textures.show_conversion = a.progress != "none" && a.progress != "json";
     io::SceneFile const file =
         io::read_scene_file(a.scene, a.overrides, make_texture_cache(a.textures));
@@ -130,7 +148,6 @@ void add_render_command(CLI::App& app, Command& chosen) {
     auto a = std::make_shared<RenderArguments>();
     CLI::App* c = app.add_subcommand("render", "Render a scene file");
     c->add_option("scene", a->scene, "The scene file, or a glTF file (.gltf, .glb)")
-        ->required()
         ->type_name("SCENE");
     c->add_option(
          "-o,--output", a->outputs,
@@ -153,6 +170,11 @@ void add_render_command(CLI::App& app, Command& chosen) {
     c->add_option("--set", a->overrides,
                   "Set a parameter of the scene, for example --set camera.fov=30")
         ->type_name("PATH.PARAM=VALUE")
+        ->take_all();
+    c->add_option("--aov", a->aovs,
+                  "Further pictures of the same samples in the EXR file, for example "
+                  "albedo,normal,depth; may be given several times; `list` lists them")
+        ->type_name("NAMES")
         ->take_all();
     c->add_option(
          "--isa", a->isa,
