@@ -20,11 +20,6 @@ class SampleSink {
         if (record_) [[unlikely]]
             record_->add(c);
     }
-    /// Light that a limit on single samples took out of the beauty.
-    void add_removed(Color const& value) {
-        if (record_) [[unlikely]]
-            record_->add_removed(value);
-    }
     Color const& beauty() const { return beauty_; }
     /// Null where beauty is all that is wanted.
     SampleRecord* record() const { return record_; }

@@ -141,7 +141,11 @@ void Film::write_pixel(size_t pixel, float* to) const {
     double const n = counts_[pixel].all, scale = n > 0 ? 1 / n : 0;
     auto const put = [&](float v) { *to++ = v; };
     for (Aov aov : layout_.aovs()) {
-        if (int const offset = layout_.offset(aov); offset >= 0) {
+        if (int const offset = layout_.offset(aov); aov == Aov::shadow_catcher) {
+            double const* const lit = sums(pixel) + offset;
+            for (int c = 0; c < 3; ++c) put(lit[c] > 0 ? float(lit[3 + c] / lit[c]) : 1.f);
+            continue;
+        } else if (offset >= 0) {
             int const count =
                 summed_numbers(aov) *
                 (aov == Aov::light_groups ? int(layout_.options().light_groups.size()) : 1);

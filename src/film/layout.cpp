@@ -78,6 +78,7 @@ std::vector<std::string> channels_of(Aov aov, LayoutOptions const& options) {
 int summed_numbers(Aov aov) {
     if (is_nearest(aov) || is_cryptomatte(aov)) return 0;
     if (aov == Aov::sample_count || aov == Aov::variance) return 0;
+    if (aov == Aov::shadow_catcher) return 6; // the light with and without other instances
     return aov == Aov::alpha ? 1 : 3;
 }
 

@@ -72,6 +72,11 @@ class SampleRecord {
                              .bounces = c.bounces()});
     }
     void add_removed(Color const& value) { add_to(Aov::removed, value); }
+    /// Light on a shadow catcher: with nothing in its way but other catchers, and as it is.
+    void add_caught(Color const& lit, Color const& shadowed) {
+        add_to(Aov::shadow_catcher, lit);
+        add_to(Aov::shadow_catcher, shadowed, 1);
+    }
     /// Before what comes over the path's first bounce is added.
     void set_shares(ComponentShares const& shares) { shares_ = shares; }
     /// Each takes the place of what was said before.

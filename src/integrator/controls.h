@@ -11,6 +11,13 @@ inline world::RayMask ray_mask(PathSettings const& settings, world::RayKind kind
     return settings.controls ? world::mask_of(kind) : world::kUnruledMask;
 }
 
+/// Whether the camera sees something else in the object's place.
+inline bool is_matte(PathSettings const& settings, PathState const& path,
+                     world::Object const& object) {
+    return (object.holdout || object.shadow_catcher) && settings.controls &&
+           path.signature.length() == 0;
+}
+
 /// How far rays see that leave this object.
 inline float reach_of(PathSettings const& settings, world::Object const& object) {
     return settings.controls && object.trace_distance > 0 ? object.trace_distance : kInfinity;
@@ -40,20 +47,13 @@ inline float found_factor(world::World const& world, PathSettings const& setting
     return rules->factor({path.p, path.sets, bounces, path.kind, distance});
 }
 
-/// A contribution over that many bounces, no greater than it may be.
-inline Color clamped(PathSettings const& settings, Color const& value, uint32_t bounces) {
-    float const most = max_component(value);
-    return bounces > 1 && most > settings.indirect_clamp ? value * (settings.indirect_clamp / most)
-                                                         : value;
-}
-
-/// Hands light to the film, no greater than it may be, and tells it what it does not get.
+/// Hands light to the film, no more of it than a contribution over several bounces may have.
 inline void add_clamped(PathSettings const& settings, film::Contribution c,
                         film::SampleSink& sink) {
-    Color const found = c.value;
-    c.value = clamped(settings, found, c.bounces());
+    float const most = max_component(c.value);
+    if (most > settings.indirect_clamp && c.bounces() > 1)
+        c.value *= settings.indirect_clamp / most;
     sink.add(c);
-    if (sink.record() && c.value != found) sink.add_removed(found - c.value);
 }
 
 } // namespace weft::integrator

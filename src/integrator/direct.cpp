@@ -27,9 +27,23 @@ struct Connection {
     world::LightSample const& light;
     world::LightRules const* rules; ///< what of it counts; null: all
     uint32_t bounces;               ///< the point included
-    bool combine;                   ///< rays may find the light as well
+    bool alone;                     ///< no ray finds the light
+    bool combine;                   ///< what rays find is weighed against it
     bool through;                   ///< it comes from the other side of the surface
 };
+
+Connection connection(world::World const& world, PathSettings const& settings,
+                      PathState const& path, ScatterPoint const& point,
+                      world::LightSample const& light) {
+    world::LightRules const* const rules = rules_of(world, settings, light.light);
+    bool const alone = light.delta || (rules && rules->sampling_alone);
+    bool const through =
+        point.surface && dot(light.wi, point.surface->ng) * dot(point.wo, point.surface->ng) < 0;
+    return {point,  light,
+            rules,  path.signature.length() + (point.bsdf ? 1 : 0),
+            alone,  settings.strategy == scene::Strategy::mis && !alone,
+            through};
+}
 
 /// The part of light that `value` scatters towards the camera.
 Color counted(Connection const& c, lobes::LobeValue const& value, world::RayKind kind) {
@@ -58,15 +72,16 @@ Scattered scatter(PathSettings const& settings, PathState const& path, Connectio
     return {part(LobeFlags::Diffuse), drops ? Color(0) : part(LobeFlags::Glossy)};
 }
 
-/// The part of the light that gets to the point.
+/// The part of the light that gets to the point past what `blockers` is the mask of.
 Color transmitted(world::World const& world, PathSettings const& settings, PathState const& path,
-                  Connection const& c, sampling::SampleStream const& u, uint32_t vertex) {
+                  Connection const& c, world::RayMask blockers, sampling::SampleStream const& u,
+                  uint32_t vertex) {
     world::LightSample const& light = c.light;
     world::Ray shadow;
     shadow.origin = c.point.origin(light.wi);
     shadow.direction = light.wi;
     shadow.time = path.ray.time;
-    shadow.mask = shadow_mask(settings, c.rules);
+    shadow.mask = blockers;
     shadow.t_max = c.point.reach;
     if (light.distance < kInfinity) {
         if (light.distance > c.point.reach) return Color(0);
@@ -111,28 +126,38 @@ void add(PathSettings const& settings, PathState const& path, Connection const& 
 void direct(world::World const& world, PathSettings const& settings, PathState const& path,
             ScatterPoint const& point, sampling::SampleStream const& u, uint32_t vertex,
             film::SampleSink& sink) {
-    scene::Strategy const strategy = settings.strategy;
     world::LightSample const light =
         world.lights().sample(point.p, point.n, u.get3(sampling::Dimension::Light, vertex));
     if (!(light.pdf > 0) || is_black(light.radiance)) return;
-    world::LightRules const* const rules = rules_of(world, settings, light.light);
+    Connection const c = connection(world, settings, path, point, light);
     // What rays can find is left to them where the strategy says so.
-    bool const alone = light.delta || (rules && rules->sampling_alone);
-    if (strategy == scene::Strategy::bsdf && !alone) return;
-    bool const through =
-        point.surface && dot(light.wi, point.surface->ng) * dot(point.wo, point.surface->ng) < 0;
-    Connection const connection{point,
-                                light,
-                                rules,
-                                path.signature.length() + (point.bsdf ? 1 : 0),
-                                strategy == scene::Strategy::mis && !alone,
-                                through};
-    Scattered const scattered = scatter(settings, path, connection);
+    if (settings.strategy == scene::Strategy::bsdf && !c.alone) return;
+    Scattered const scattered = scatter(settings, path, c);
     if (is_black(scattered.diffuse) && is_black(scattered.glossy)) return;
-    Color const visible = transmitted(world, settings, path, connection, u, vertex);
+    Color const visible =
+        transmitted(world, settings, path, c, shadow_mask(settings, c.rules), u, vertex);
     if (is_black(visible)) return;
-    add(settings, path, connection, scattered,
-        path.throughput * light.radiance * visible / light.pdf, sink);
+    add(settings, path, c, scattered, path.throughput * light.radiance * visible / light.pdf, sink);
+}
+
+void catch_shadow(world::World const& world, PathSettings const& settings, PathState const& path,
+                  ScatterPoint const& point, sampling::SampleStream const& u, uint32_t vertex,
+                  film::SampleRecord& record) {
+    world::LightSample const light =
+        world.lights().sample(point.p, point.n, u.get3(sampling::Dimension::Light, vertex));
+    if (!(light.pdf > 0)) return;
+    Connection c = connection(world, settings, path, point, light);
+    c.combine = false; // no ray helps
+    Scattered const scattered = scatter(settings, path, c);
+    Color const arriving =
+        path.throughput * (scattered.diffuse + scattered.glossy) * light.radiance / light.pdf;
+    if (is_black(arriving)) return;
+    world::RayMask const blockers = shadow_mask(settings, c.rules);
+    auto const past = [&](world::RayMask mask) {
+        return transmitted(world, settings, path, c, mask, u, vertex);
+    };
+    record.add_caught(arriving * past(blockers ? world::kCatcherMask : 0),
+                      arriving * past(blockers));
 }
 
 float found_weight(scene::Strategy strategy, PathState const& path, float light_pdf) {

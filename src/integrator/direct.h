@@ -19,6 +19,12 @@ void direct(world::World const& world, PathSettings const& settings, PathState c
             ScatterPoint const& point, sampling::SampleStream const& u, uint32_t vertex,
             film::SampleSink& sink);
 
+/// Tells `record` of one light sample at a shadow catcher that the camera sees: with nothing but
+/// other catchers in the light's way, and as it is.
+void catch_shadow(world::World const& world, PathSettings const& settings, PathState const& path,
+                  ScatterPoint const& point, sampling::SampleStream const& u, uint32_t vertex,
+                  film::SampleRecord& record);
+
 /// The weight of light of density `light_pdf` that the ray of `path` found by itself.
 float found_weight(scene::Strategy strategy, PathState const& path, float light_pdf);
 

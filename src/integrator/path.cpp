@@ -42,6 +42,11 @@ void add_background(world::World const& world, PathSettings const& settings, Pat
     if (sink.record()) record_background(path, seen, *sink.record());
 }
 
+/// The camera sees through a hole that an object cuts: black, with the alpha of a background.
+void hold_out(PathState const& path, film::SampleSink& sink) {
+    if (sink.record()) record_background(path, Color(0), *sink.record());
+}
+
 /// Free flight through the current medium up to `limit`. Whether the path scattered, at the
 /// ray's new origin.
 bool fly(world::World const& world, PathState& path, float limit, sampling::SampleStream const& u,
@@ -170,14 +175,23 @@ void trace_path(world::World const& world, PathSettings const& settings, world::
                 world.shade(point, wo, path.media, path.scattered && !settings.full_materials,
                             path.scattered ? settings.secondary_roughness : 0);
             if (path.diffused && !settings.secondary_specular) shading.bsdf.keep_diffuse();
-            if (sink.record()) record_surface(world, path, point, shading, *sink.record());
-            add_emission(world, settings, path, point, shading.emission, sink);
-            bool const last = vertex == settings.depth;
-            if (last && !object.is_see_through) return;
-
             ScatterPoint const here{
                 point.p,     shading.bsdf.frame().n,    wo, &shading.bsdf, &point, 0,
                 object.sets, reach_of(settings, object)};
+            bool const last = vertex == settings.depth;
+            if (is_matte(settings, path, object)) {
+                if (object.holdout) return hold_out(path, sink);
+                if (sink.record() && !last)
+                    catch_shadow(world, settings, path, here, u, step, *sink.record());
+                ++crossings; // no vertex, either
+                continue_from(world, path, point, path.ray.direction, false);
+                --vertex;
+                continue;
+            }
+            if (sink.record()) record_surface(world, path, point, shading, *sink.record());
+            add_emission(world, settings, path, point, shading.emission, sink);
+            if (last && !object.is_see_through) return;
+
             if (shading.bsdf.has_smooth() && !world.lights().empty() && !last)
                 direct(world, settings, path, here, u, step, sink);
 

@@ -10,16 +10,19 @@ constexpr uint32_t kUnlimited = 1u << 30;
 
 uint32_t depth_limit(int depth) { return depth < 0 ? kUnlimited : uint32_t(depth); }
 
+/// The same paths through the scene as it is.
+PathSettings without_controls(PathSettings const& s) {
+    PathSettings whole{s.strategy, s.depth, s.roulette_depth, s.footprint_scale, true};
+    whole.controls = false;
+    return whole;
+}
+
 PathSettings path_settings(scene::Integrator const& integrator) {
     return std::visit(Overloaded{
                           [](scene::PathIntegrator const& i) {
                               PathSettings s{i.strategy, depth_limit(i.depth),
                                              uint32_t(i.roulette_depth), 1, i.full_materials};
-                              s.controls = i.controls;
-                              if (!i.controls) {
-                                  s.full_materials = true;
-                                  return s;
-                              }
+                              if (!i.controls) return without_controls(s);
                               s.caustics = i.caustics;
                               s.secondary_specular = i.secondary_specular;
                               s.secondary_roughness = i.secondary_roughness;
@@ -83,6 +86,7 @@ PixelRenderer::PixelRenderer(world::World const& world, scene::Integrator const&
     path_.footprint_scale = world::footprint_scale(
         samples_per_pixel > 0 ? samples_per_pixel
                               : match(sampler, [](auto const& s) { return s.count; }));
+    unruled_ = without_controls(path_);
 }
 
 Color PixelRenderer::trace(scene::CameraIntegrator const& i, world::Ray const& ray,
@@ -159,6 +163,11 @@ Color PixelRenderer::sample(Vec2i pixel, uint32_t sample, film::SampleRecord* re
                                           .value = Color(1)});
             film::SampleSink sink(record);
             trace_path(world_, path_, ray, media_, u, sink);
+            if (record && record->layout().has(film::Aov::removed)) {
+                film::SampleSink whole;
+                trace_path(world_, unruled_, ray, media_, u, whole);
+                record->add_removed(whole.beauty() - sink.beauty());
+            }
             return sink.beauty();
         }
     });

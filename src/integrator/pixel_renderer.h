@@ -31,7 +31,7 @@ class PixelRenderer {
 
     world::World const& world_;
     scene::Integrator integrator_;
-    PathSettings path_;
+    PathSettings path_, unruled_; ///< the second without controls and simpler materials
     sampling::SamplerKind sampler_;
     uint32_t seed_;
     film::Filter filter_;

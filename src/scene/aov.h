@@ -39,6 +39,7 @@ enum class Aov : uint8_t {
     crypto_asset,
     sample_count,
     variance,
+    shadow_catcher,
     removed
 };
 
@@ -47,7 +48,7 @@ struct AovInfo {
 };
 
 /// In the order of `Aov`.
-inline constexpr std::array<AovInfo, 29> kAovs{{
+inline constexpr std::array<AovInfo, 30> kAovs{{
     {"beauty", "R G B", "The picture itself; always there."},
     {"alpha", "A",
      "How much of the pixel is covered: holes of opacity and the background are not."},
@@ -90,7 +91,12 @@ inline constexpr std::array<AovInfo, 29> kAovs{{
     {"sample_count", "sample_count", "How many samples the pixel has."},
     {"variance", "variance.R ...",
      "Estimated variance of the beauty: of the pixel's mean, not of one sample."},
-    {"removed", "removed.R ...", "Light that clamping took out of the beauty."},
+    {"shadow_catcher", "shadow_catcher.R ...",
+     "Of the light of lights that reaches shadow catchers, the part that other instances do not "
+     "block; 1 where there is none."},
+    {"removed", "removed.R ...",
+     "What light controls, visibility, limits and simpler secondary materials took out of the "
+     "beauty: both add up to the picture without them. It costs a second path for each sample."},
 }};
 
 constexpr auto choices(Aov) {

@@ -103,6 +103,7 @@ struct Instance {
     MediumId medium;
     int priority = 0;
     RayVisibility visibility;
+    bool holdout = false, shadow_catcher = false;
     std::string sets;
     float trace_distance = 0;
     std::string group;
@@ -127,6 +128,12 @@ struct Instance {
                    "there (liquid in a glass: the glass higher). Of equal ones the smaller volume "
                    "is, and of equal volumes the one that comes first."});
         f.group(visibility);
+        f("holdout", holdout,
+          {.help = "Where the camera sees it, it cuts a hole into the picture, with an alpha of 0; "
+                   "all other rays meet it as ever."});
+        f("shadowCatcher", shadow_catcher,
+          {.help = "The camera does not see it, but the AOV `shadow_catcher` has the shadows that "
+                   "others cast on it; all other rays meet it as ever."});
         f("sets", sets,
           {.help = "Names of sets that it belongs to, for the links of lights: \"cast hero\"."});
         f("traceDistance", trace_distance,

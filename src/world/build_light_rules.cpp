@@ -52,9 +52,11 @@ void WorldBuilder::mask_objects() {
         for (RayKind kind : kAllKinds)
             if (is_visible(o.visibility, kind)) o.ray_mask |= mask_of(kind);
         if (o.visibility.shadow) o.ray_mask |= kShadowMask;
+        if (o.visibility.shadow && o.shadow_catcher) o.ray_mask |= kCatcherMask;
         for (size_t i = 0; i < shadow_links_.size(); ++i)
             if (o.visibility.shadow && shadow_links_[i].accept(o.sets))
                 o.ray_mask |= 1u << (kFirstLinkBit + i);
+        world_.has_controls_ |= o.holdout || o.shadow_catcher;
         world_.has_controls_ |= o.visibility != scene::RayVisibility{} || o.trace_distance > 0;
         auto const& v = o.visibility;
         world_.has_controls_by_kind_ |=

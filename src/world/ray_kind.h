@@ -15,6 +15,8 @@ constexpr RayMask mask_of(RayKind kind) { return 1u << uint32_t(kind); }
 inline constexpr RayMask kShadowMask = 1u << kRayKinds;
 /// Every object has it: rays that heed no control.
 inline constexpr RayMask kUnruledMask = 1u << 6;
+/// Shadow catchers have it.
+inline constexpr RayMask kCatcherMask = 1u << 7;
 /// From here on one for each different list of objects that block some light.
 inline constexpr uint32_t kFirstLinkBit = 8, kLinkBits = 24;
 

@@ -79,6 +79,7 @@ struct Object {
     RayMask ray_mask = ~0u;   ///< bits of the rays that meet it
     uint64_t sets = 0;        ///< that it belongs to, as bits
     float trace_distance = 0; ///< how far rays that leave it see; 0: no limit
+    bool holdout = false, shadow_catcher = false; ///< what the camera sees in its place
 };
 
 struct CommitOptions {

@@ -115,6 +115,8 @@ void WorldBuilder::add_instance(int32_t index, Inherited const& outer) {
     given.alpha = outer.alpha != scene::Input<float>{1} ? outer.alpha : instance.alpha;
     given.priority = outer.priority != 0 ? outer.priority : instance.priority;
     given.visibility = all_of(outer.visibility, instance.visibility);
+    given.holdout = outer.holdout || instance.holdout;
+    given.shadow_catcher = outer.shadow_catcher || instance.shadow_catcher;
     given.sets =
         outer.sets | sets_.declare(instance.sets, scene_.instance_locations[size_t(index)]);
     given.trace_distance =
@@ -144,6 +146,8 @@ void WorldBuilder::add_object(scene::Shape const& shape, int32_t instance, Inher
     object.visibility = given.visibility;
     object.sets = given.sets;
     object.trace_distance = given.trace_distance;
+    object.holdout = given.holdout;
+    object.shadow_catcher = given.shadow_catcher;
     if (given.material) {
         auto const& material = scene_.materials[size_t(given.material.index)];
         object.is_null = shading::is_null_boundary(material);

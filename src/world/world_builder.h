@@ -50,6 +50,7 @@ class WorldBuilder {
         scene::RayVisibility visibility;
         uint64_t sets = 0;
         float trace_distance = 0;
+        bool holdout = false, shadow_catcher = false;
         int32_t root_instance = -1, group_instance = -1; ///< as in Object
     };
 
