@@ -19,7 +19,10 @@ struct EnvironmentLight {
     template <class F>
     constexpr void describe(F&& f) {
         f("texture", texture, {.unit = "W/(m^2 sr)", .min = 0, .help = "Radiance by direction."});
-        f("transform", transform, {.help = "Rotation from the map's space to the world."});
+        f("transform", transform,
+          {.help =
+               "From the map's space to the world: turns and mirrors the map; unequal scales and "
+               "shear stretch it, as if painted on a far sphere. The rest does nothing."});
         f.group(controls);
     }
 };

@@ -65,17 +65,22 @@ LightSample LightTable::sample_light(AreaLight const& l, Vec3 const& ref, Vec2 u
 
 LightSample LightTable::sample_light(EnvironmentLight const& l, Vec3 const&, Vec2 u) const {
     auto const s = l.sampler.sample(u);
+    Vec3 const d = l.to_world.vector(s.direction);
+    float const stretch = length(d);
     LightSample sample;
-    sample.wi = normalize(l.to_world.vector(s.direction));
+    sample.wi = d * (1 / stretch);
     sample.distance = kInfinity;
     sample.radiance = textures_->radiance(l.texture, s.uv);
-    sample.pdf = s.pdf;
+    sample.pdf = s.pdf * (stretch * stretch * stretch);
     return sample;
 }
 
 LightTable::Found LightTable::found_at(EnvironmentLight const& l, Vec3 const& d) const {
-    Vec3 const local = normalize(l.to_map.vector(d));
-    return {textures_->radiance(l.texture, lights::direction_to_uv(local)), l.sampler.pdf(local)};
+    Vec3 const m = l.to_map.vector(d);
+    float const shrink = 1 / length(m);
+    Vec3 const local = m * shrink;
+    return {textures_->radiance(l.texture, lights::direction_to_uv(local)),
+            l.sampler.pdf(local) * (shrink * shrink * shrink)};
 }
 
 LightSample LightTable::sample_light(lights::SunDisk const& l, Vec3 const&, Vec2 u) const {

@@ -32,7 +32,9 @@ struct AreaLight {
 
 struct EnvironmentLight {
     scene::Input<Color> texture;
-    Affine to_world, to_map; ///< rotations; scale is ignored
+    /// Between directions, linear, of determinant 1 or -1: most often rotations. A solid angle in
+    /// the map is one in the world times 1 / |to_map(d)|^3, d a unit direction in the world.
+    Affine to_world, to_map;
     lights::EnvironmentSampler sampler;
 };
 
