@@ -57,6 +57,7 @@ class EnvironmentSampler {
     float pdf(Vec3 const& d) const;
     /// The integral of the brightness over the sphere of directions, as it was given.
     float total() const { return total_; }
+    uint32_t columns() const { return grid_.width; }
 
   private:
     using Corners = float[4];

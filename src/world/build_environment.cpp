@@ -1,4 +1,5 @@
-// The part of WorldBuilder that makes environments.
+// The part of WorldBuilder that makes environments and skies.
+#include "lights/solar_position.h"
 #include "world/world_builder.h"
 
 namespace weft::world {
@@ -61,10 +62,52 @@ Grid brightness(shading::Textures const& textures, scene::Scene const& scene,
     return grid;
 }
 
+/// A sky, texel by texel, without noise around the sun: half a degree is finer than it varies.
+constexpr Vec2i kSkySize(768, 384);
+
+Grid brightness(lights::SkyTable const& sky) {
+    Grid grid{Grid::Filter::bilinear, uint32_t(sky.width), uint32_t(sky.height), {}};
+    for (uint32_t y = 0; y < grid.rows(); ++y)
+        for (uint32_t x = 0; x < grid.width; ++x)
+            grid.values.push_back(luminance(sky.at(grid.uv(x, y))));
+    return grid;
+}
+
 /// The linear part of a map between directions, of determinant 1 or -1.
 Affine directions_of(Affined const& m) {
     double const s = 1 / std::cbrt(std::abs(m.determinant()));
     return Affine(Affined(m.x * s, m.y * s, m.z * s, Vec3d(0)));
+}
+
+lights::Portal portal_of(scene::Portal const& portal) {
+    Affined const& m = portal.transform;
+    Vec3d const n = normalize(cross(m.x, m.y));
+    Vec3d const inwards = dot(n, m.z) > 0 ? n : -n;
+    return {Vec3(m.origin), Vec3(normalize(m.x)), Vec3(normalize(m.y)),
+            Vec3(-inwards), float(length(m.x)),   float(length(m.y))};
+}
+
+/// The part of samples over the whole sphere where portals are seen and nothing but light sampling
+/// finds light.
+constexpr float kWholePart = 0.125f;
+constexpr uint32_t kPortalCells = 512; ///< along either axis
+/// Of a portal's light that is looked for where its map, as it was looked up, is dark.
+constexpr float kEvenPortalPart = 0.01f;
+
+/// Where the sun is, in the space of its light.
+Vec3 sun_direction(scene::SkyLight const& light) {
+    double elevation = double(radians(light.elevation)), azimuth = double(radians(light.azimuth));
+    if (auto const date = scene::parse_date(light.date)) {
+        auto const p = lights::solar_position(
+            date->year, date->month, date->day, double(light.time), double(light.time_zone),
+            double(radians(light.latitude)), double(radians(light.longitude)));
+        elevation = p.elevation;
+        azimuth = p.azimuth;
+    } else if (length_squared(light.direction) > 0) {
+        return normalize(light.direction);
+    }
+    double const r = std::cos(elevation);
+    return Vec3(Vec3d(r * std::sin(azimuth), std::sin(elevation), -r * std::cos(azimuth)));
 }
 
 } // namespace
@@ -77,15 +120,51 @@ void WorldBuilder::prepare_environment(scene::EnvironmentLight const& light,
                                 "uv alone, found one that depends on a surface");
 }
 
+void WorldBuilder::add_environment(EnvironmentLight light, std::span<scene::PortalId const> portals,
+                                   scene::LightControls const& controls, LightList& list) {
+    light.to_map = light.to_world.inverse();
+    std::vector<lights::PortalMap> maps;
+    auto const brightness_of = [&](Vec3 const& d) {
+        return luminance(light.radiance(world_.textures_, d));
+    };
+    float const even = kEvenPortalPart * light.sampler.total() / (4 * kPi);
+    uint32_t const lookups = std::min(light.sampler.columns() / (2 * kPortalCells) + 1, 8u);
+    for (scene::PortalId id : portals)
+        maps.emplace_back(portal_of(scene_.portals[size_t(id.index)]), kPortalCells, lookups, even,
+                          brightness_of);
+    light.portals = lights::PortalSampler(std::move(maps));
+    light.whole = options_.compensate ? 0 : kWholePart;
+    float const power = list.cross_section * light.sampler.total();
+    list.add(std::move(light), at_infinity(), power, controls);
+}
+
 void WorldBuilder::add_light(scene::EnvironmentLight const& light, SourceLocation const& where,
                              LightList& list) {
     prepare_environment(light, where);
-    Affine const to_world = directions_of(light.transform);
     lights::EnvironmentSampler sampler(brightness(world_.textures_, scene_, light.texture),
                                        options_.compensate);
-    float const power = list.cross_section * sampler.total();
-    list.add(EnvironmentLight{light.texture, to_world, to_world.inverse(), std::move(sampler)},
-             at_infinity(), power, light.controls);
+    add_environment({light.texture, directions_of(light.transform), {}, std::move(sampler), {}},
+                    light.portals, light.controls, list);
+}
+
+void WorldBuilder::add_light(scene::SkyLight const& light, SourceLocation const&, LightList& list) {
+    Vec3 const sun = sun_direction(light);
+    lights::SkyTable table = lights::make_sky_table(
+        {sun, light.turbidity, light.ground, light.sky_intensity, light.sun_intensity}, kSkySize.x,
+        kSkySize.y);
+    lights::EnvironmentSampler sampler(brightness(table), options_.compensate);
+    Affine const to_world = directions_of(light.transform);
+    add_environment({std::move(table), to_world, {}, std::move(sampler), {}}, light.portals,
+                    light.controls, list);
+
+    Color const irradiance = lights::sun_irradiance(double(light.turbidity),
+                                                    std::asin(std::clamp(double(sun.y), -1., 1.))) *
+                             light.sun_intensity;
+    if (is_black(irradiance)) return;
+    list.add(lights::make_sun_disk(normalize(to_world.vector(sun)),
+                                   radians(0.5f * lights::kSunDiameter * light.sun_size),
+                                   irradiance, lights::kSunLimb),
+             at_infinity(), list.cross_section * luminance(irradiance), light.controls);
 }
 
 } // namespace weft::world

@@ -26,6 +26,17 @@ LightSample from_delta(lights::DeltaLightSample const& s) {
     return sample;
 }
 
+/// Of an environment or a disk: {direction, radiance, pdf}.
+template <class Sample>
+LightSample from_infinity(Sample const& s) {
+    LightSample sample;
+    sample.wi = s.direction;
+    sample.distance = kInfinity;
+    sample.radiance = s.radiance;
+    sample.pdf = s.pdf;
+    return sample;
+}
+
 } // namespace
 
 LightSample LightTable::sample_light(lights::PointLight const& l, Vec3 const& ref, Vec2) const {
@@ -63,37 +74,21 @@ LightSample LightTable::sample_light(AreaLight const& l, Vec3 const& ref, Vec2 u
     return sample;
 }
 
-LightSample LightTable::sample_light(EnvironmentLight const& l, Vec3 const&, Vec2 u) const {
-    auto const s = l.sampler.sample(u);
-    Vec3 const d = l.to_world.vector(s.direction);
-    float const stretch = length(d);
-    LightSample sample;
-    sample.wi = d * (1 / stretch);
-    sample.distance = kInfinity;
-    sample.radiance = textures_->radiance(l.texture, s.uv);
-    sample.pdf = s.pdf * (stretch * stretch * stretch);
-    return sample;
+LightSample LightTable::sample_light(EnvironmentLight const& l, Vec3 const& ref, Vec2 u) const {
+    return from_infinity(l.sample(*textures_, ref, u));
 }
 
-LightTable::Found LightTable::found_at(EnvironmentLight const& l, Vec3 const& d) const {
-    Vec3 const m = l.to_map.vector(d);
-    float const shrink = 1 / length(m);
-    Vec3 const local = m * shrink;
-    return {textures_->radiance(l.texture, lights::direction_to_uv(local)),
-            l.sampler.pdf(local) * (shrink * shrink * shrink)};
+LightTable::Found LightTable::found_at(EnvironmentLight const& l, Vec3 const& ref,
+                                       Vec3 const& d) const {
+    auto const s = l.found(*textures_, ref, d);
+    return {s.radiance, s.pdf};
 }
 
 LightSample LightTable::sample_light(lights::SunDisk const& l, Vec3 const&, Vec2 u) const {
-    auto const s = l.sample(u);
-    LightSample sample;
-    sample.wi = s.direction;
-    sample.distance = kInfinity;
-    sample.radiance = s.radiance;
-    sample.pdf = s.pdf;
-    return sample;
+    return from_infinity(l.sample(u));
 }
 
-LightTable::Found LightTable::found_at(lights::SunDisk const& l, Vec3 const& d) const {
+LightTable::Found LightTable::found_at(lights::SunDisk const& l, Vec3 const&, Vec3 const& d) const {
     return {l.radiance(d), l.pdf(d)};
 }
 

@@ -4,15 +4,14 @@
 #include <variant>
 #include <vector>
 
-#include "base/affine.h"
 #include "base/match.h"
 #include "lights/delta_lights.h"
 #include "lights/emitter_geometry.h"
-#include "lights/environment.h"
 #include "lights/light_tree.h"
 #include "lights/sun_disk.h"
 #include "scene/scene.h"
 #include "shading/textures.h"
+#include "world/environment_light.h"
 #include "world/light_rules.h"
 
 namespace weft::world {
@@ -28,14 +27,6 @@ struct AreaLight {
     float extent = 0;         ///< about its size: the root of its area
     uint32_t object = 0;      ///< of the world
     bool uv_alone = true;     ///< emission and alpha depend on uv alone
-};
-
-struct EnvironmentLight {
-    scene::Input<Color> texture;
-    /// Between directions, linear, of determinant 1 or -1: most often rotations. A solid angle in
-    /// the map is one in the world times 1 / |to_map(d)|^3, d a unit direction in the world.
-    Affine to_world, to_map;
-    lights::EnvironmentSampler sampler;
 };
 
 using LightKind = std::variant<lights::PointLight, lights::DirectionalLight, lights::SpotLight,
@@ -83,7 +74,7 @@ class LightTable {
     void environment(Vec3 const& ref, Vec3 const& n, Vec3 const& d, F&& f) const {
         for (int32_t i : environments_) {
             Found const found = match(lights_[size_t(i)].kind,
-                                      [&](auto const& light) { return found_at(light, d); });
+                                      [&](auto const& light) { return found_at(light, ref, d); });
             f(i, found.radiance, tree_.probability(ref, n, uint32_t(i)) * found.pdf);
         }
     }
@@ -94,10 +85,10 @@ class LightTable {
         Color radiance;
         float pdf = 0; ///< per solid angle, of the light alone
     };
-    Found found_at(EnvironmentLight const& light, Vec3 const& d) const;
-    Found found_at(lights::SunDisk const& light, Vec3 const& d) const;
+    Found found_at(EnvironmentLight const& light, Vec3 const& ref, Vec3 const& d) const;
+    Found found_at(lights::SunDisk const& light, Vec3 const& ref, Vec3 const& d) const;
     template <class Other>
-    Found found_at(Other const&, Vec3 const&) const {
+    Found found_at(Other const&, Vec3 const&, Vec3 const&) const {
         return {};
     }
     LightSample sample_light(lights::PointLight const& l, Vec3 const& ref, Vec2 u) const;

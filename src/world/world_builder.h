@@ -88,6 +88,10 @@ class WorldBuilder {
     void add_light(scene::DirectionalLight const&, SourceLocation const&, LightList&);
     void add_light(scene::SpotLight const&, SourceLocation const&, LightList&);
     void add_light(scene::EnvironmentLight const&, SourceLocation const&, LightList&);
+    void add_light(scene::SkyLight const&, SourceLocation const&, LightList&);
+    /// `light` without its portals and `to_map`.
+    void add_environment(EnvironmentLight light, std::span<scene::PortalId const> portals,
+                         scene::LightControls const& controls, LightList& list);
     void add_area_lights(LightList& list);
     void count();
 

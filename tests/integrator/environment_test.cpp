@@ -172,5 +172,110 @@ TEST(Environments, compensation_lowers_the_noise) {
     }
 }
 
+/// A closed room of half a unit of wall around [-2, 2] x [-1, 2] x [-2, 2], open where windows are:
+/// one in the wall at x = -2, and a smaller one at z = 2 where asked for.
+std::string room(bool second) {
+    auto wall = [](std::string const& scale, std::string const& turn, std::string const& move) {
+        return "<instance><shape type=\"rectangle\"/><bsdf type=\"diffuse\" "
+               "albedo=\"0.7,0.6,0.5\"/><transform><scale " +
+               scale + "/>" + turn + "<translate value=\"" + move + "\"/></transform></instance>";
+    };
+    std::string const to_x = R"(<rotate axis="0,1,0" angle="90"/>)",
+                      to_y = R"(<rotate axis="1,0,0" angle="90"/>)";
+    std::string walls =
+        wall("x=\"2\" y=\"2\"", to_y, "0,-1,0") + wall("x=\"2\" y=\"2\"", to_y, "0,2,0") +
+        wall("x=\"2\" y=\"1.5\"", "", "0,0.5,-2") + wall("x=\"2\" y=\"1.5\"", to_x, "2,0.5,0");
+    // Around the window at x = -2: y in [0.2, 1.4], z in [-0.8, 0.8].
+    walls += wall("x=\"2\" y=\"0.6\"", to_x, "-2,-0.4,0") +
+             wall("x=\"2\" y=\"0.3\"", to_x, "-2,1.7,0") +
+             wall("x=\"0.6\" y=\"0.6\"", to_x, "-2,0.8,1.4") +
+             wall("x=\"0.6\" y=\"0.6\"", to_x, "-2,0.8,-1.4");
+    if (!second) return walls + wall("x=\"2\" y=\"1.5\"", "", "0,0.5,2");
+    // x in [0.5, 1.5], all of the height.
+    return walls + wall("x=\"1.25\" y=\"1.5\"", "", "-0.75,0.5,2") +
+           wall("x=\"0.25\" y=\"1.5\"", "", "1.75,0.5,2");
+}
+
+/// The local z axis points into the room.
+std::string const kPortal = R"(<portal><transform><scale x="0.8" y="0.6"/>
+    <rotate axis="0,1,0" angle="90"/><translate value="-2,0.8,0"/></transform></portal>)";
+std::string const kSecondPortal = R"(<portal><transform><scale x="0.5" y="1.5"/>
+    <rotate axis="0,1,0" angle="180"/><translate value="1,0.5,2"/></transform></portal>)";
+std::string const kRoomCamera = R"(<camera type="perspective" width="8" height="8" fov="80">
+    <transform><lookat origin="1.7,0.8,-1.7" target="-0.3,0.1,0.6" up="0,1,0"/></transform></camera>)";
+
+void write_sky(std::string const& path) {
+    image::Image sky = image::make_image(64, 32, 3);
+    for (int y = 0; y < 32; ++y)
+        for (int x = 0; x < 64; ++x)
+            for (int c = 0; c < 3; ++c)
+                sky.at(x, y, c) = (y < 16 ? 0.2f : 1 + 0.3f * float(c)) +
+                                  20 * std::exp(-0.1f * float(square(x - 2) + square(y - 21)));
+    image::write_exr(path, sky);
+}
+
+TEST(Portals, strategies_agree) {
+    TemporaryFolder const folder;
+    write_sky(folder / "sky.exr");
+    std::string const turn = R"(<rotate axis="1,1,0" angle="15"/>)";
+    auto const light = [&](std::string const& portals) {
+        return "<light type=\"envmap\">" + file("sky.exr") + "<transform>" + turn + "</transform>" +
+               portals + "</light>";
+    };
+    struct RoomCase {
+        std::string name, contents, without;
+    };
+    std::string const ball =
+        R"(<instance><shape type="sphere"/><bsdf type="principled" roughness="0.4"/>
+        <transform><scale value="0.6"/><translate value="-0.4,-0.4,0.3"/></transform></instance>)";
+    std::vector<RoomCase> const all{
+        {"a window", room(false) + ball + light(kPortal), room(false) + ball + light("")},
+        {"two windows", room(true) + ball + light(kPortal + kSecondPortal),
+         room(true) + ball + light("")},
+        {"a window that is no portal", room(true) + ball + light(kPortal),
+         room(true) + ball + light("")},
+        {"a sky with its sun",
+         room(true) + ball +
+             R"(<light type="sky" elevation="35" azimuth="-70" sunSize="8" sunIntensity="0.02"
+             skyIntensity="0.05">)" +
+             kPortal + kSecondPortal + "</light>",
+         room(true) + ball +
+             R"(<light type="sky" elevation="35" azimuth="-70" sunSize="8" sunIntensity="0.02"
+             skyIntensity="0.05"/>)"},
+    };
+    double const level = sidak(kAlpha, int(all.size()) * 3 * 3 * 4);
+    for (RoomCase const& c : all) {
+        std::vector<Estimate> of[4];
+        char const* const names[]{"bsdf", "nee", "mis", "mis"};
+        int const samples[]{8000, 3000, 3000, 3000};
+        for (int s = 0; s < 4; ++s)
+            of[s] = block_estimates(
+                make_scene(kRoomCamera + (s == 3 ? c.without : c.contents),
+                           "type=\"path\" depth=\"3\" strategy=\"" + std::string(names[s]) + "\"",
+                           folder.path()),
+                samples[s], 4, uint32_t(s));
+        for (size_t i = 0; i < of[0].size(); ++i)
+            for (int s = 1; s < 4; ++s)
+                EXPECT_GT(difference_p_value(of[0][i], of[s][i]), level)
+                    << c.name << ", block " << i / 3 << ", channel " << i % 3 << ": bsdf "
+                    << of[0][i].mean << " +- " << std::sqrt(of[0][i].variance) << ", " << names[s]
+                    << (s == 3 ? " without portals " : " ") << of[s][i].mean << " +- "
+                    << std::sqrt(of[s][i].variance);
+    }
+}
+
+TEST(Portals, lower_the_noise) {
+    TemporaryFolder const folder;
+    write_sky(folder / "sky.exr");
+    std::string const path = "type=\"path\" depth=\"2\"";
+    auto const variance = [&](std::string const& portals) {
+        return variance_of(make_scene(kRoomCamera + room(false) + "<light type=\"envmap\">" +
+                                          file("sky.exr") + portals + "</light>",
+                                      path, folder.path()),
+                           1000);
+    };
+    EXPECT_LT(variance(kPortal), 0.5 * variance(""));
+}
+
 } // namespace
 } // namespace weft::integrator
