@@ -120,6 +120,10 @@ void WorldBuilder::prepare_environment(scene::EnvironmentLight const& light,
                                 "uv alone, found one that depends on a surface");
 }
 
+bool WorldBuilder::is_compensated(scene::LightControls const& controls) const {
+    return options_.compensate && !is_sampled_alone(controls);
+}
+
 void WorldBuilder::add_environment(EnvironmentLight light, std::span<scene::PortalId const> portals,
                                    scene::LightControls const& controls, LightList& list) {
     light.to_map = light.to_world.inverse();
@@ -133,7 +137,7 @@ void WorldBuilder::add_environment(EnvironmentLight light, std::span<scene::Port
         maps.emplace_back(portal_of(scene_.portals[size_t(id.index)]), kPortalCells, lookups, even,
                           brightness_of);
     light.portals = lights::PortalSampler(std::move(maps));
-    light.whole = options_.compensate ? 0 : kWholePart;
+    light.whole = is_compensated(controls) ? 0 : kWholePart;
     float const power = list.cross_section * light.sampler.total();
     list.add(std::move(light), at_infinity(), power, controls);
 }
@@ -142,7 +146,7 @@ void WorldBuilder::add_light(scene::EnvironmentLight const& light, SourceLocatio
                              LightList& list) {
     prepare_environment(light, where);
     lights::EnvironmentSampler sampler(brightness(world_.textures_, scene_, light.texture),
-                                       options_.compensate);
+                                       is_compensated(light.controls));
     add_environment({light.texture, directions_of(light.transform), {}, std::move(sampler), {}},
                     light.portals, light.controls, list);
 }
@@ -152,7 +156,7 @@ void WorldBuilder::add_light(scene::SkyLight const& light, SourceLocation const&
     lights::SkyTable table = lights::make_sky_table(
         {sun, light.turbidity, light.ground, light.sky_intensity, light.sun_intensity}, kSkySize.x,
         kSkySize.y);
-    lights::EnvironmentSampler sampler(brightness(table), options_.compensate);
+    lights::EnvironmentSampler sampler(brightness(table), is_compensated(light.controls));
     Affine const to_world = directions_of(light.transform);
     add_environment({std::move(table), to_world, {}, std::move(sampler), {}}, light.portals,
                     light.controls, list);

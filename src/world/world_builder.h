@@ -89,6 +89,8 @@ class WorldBuilder {
     void add_light(scene::SpotLight const&, SourceLocation const&, LightList&);
     void add_light(scene::EnvironmentLight const&, SourceLocation const&, LightList&);
     void add_light(scene::SkyLight const&, SourceLocation const&, LightList&);
+    /// Whether rays find what sampling of the light leaves.
+    bool is_compensated(scene::LightControls const& controls) const;
     /// `light` without its portals and `to_map`.
     void add_environment(EnvironmentLight light, std::span<scene::PortalId const> portals,
                          scene::LightControls const& controls, LightList& list);

@@ -218,9 +218,9 @@ TEST(Portals, strategies_agree) {
     TemporaryFolder const folder;
     write_sky(folder / "sky.exr");
     std::string const turn = R"(<rotate axis="1,1,0" angle="15"/>)";
-    auto const light = [&](std::string const& portals) {
-        return "<light type=\"envmap\">" + file("sky.exr") + "<transform>" + turn + "</transform>" +
-               portals + "</light>";
+    auto const light = [&](std::string const& portals, std::string const& attributes = "") {
+        return "<light type=\"envmap\" " + attributes + ">" + file("sky.exr") + "<transform>" +
+               turn + "</transform>" + portals + "</light>";
     };
     struct RoomCase {
         std::string name, contents, without;
@@ -234,6 +234,9 @@ TEST(Portals, strategies_agree) {
          room(true) + ball + light("")},
         {"a window that is no portal", room(true) + ball + light(kPortal),
          room(true) + ball + light("")},
+        {"without shadows, which light sampling alone finds",
+         room(false) + ball + light(kPortal, "castShadows=\"false\""),
+         room(false) + ball + light("", "castShadows=\"false\"")},
         {"a sky with its sun",
          room(true) + ball +
              R"(<light type="sky" elevation="35" azimuth="-70" sunSize="8" sunIntensity="0.02"
