@@ -1,6 +1,7 @@
 #include "bench/render_bench.h"
 
 #include "bench/raw_limit.h"
+#include "integrator/pixel_renderer.h"
 #include "io/scene_file.h"
 #include "session/render.h"
 
@@ -49,7 +50,8 @@ RayCount count_rays(world::RayRecorder const& recorder) {
 RenderFigures measure_render(std::string const& scene_file, world::RayRecorder& recorder,
                              int rounds) {
     io::RenderJob const job = std::move(io::read_scene_file(scene_file).jobs.front());
-    auto const world = world::World::commit(job.scene);
+    auto const world = world::World::commit(
+        job.scene, {.compensate = integrator::combines_strategies(job.integrator)});
     Vec2i const size = world->camera().size();
     double const pixels = double(size.x) * size.y;
     int const spp = session::sample_count(job.sampler);

@@ -73,6 +73,12 @@ Distribution2D::Sample Distribution2D::sample(Vec2 u) const {
     return {{x.x, y.x}, x.pdf * y.pdf};
 }
 
+Distribution2D::Choice Distribution2D::choose(Vec2 u) const {
+    auto const y = marginal_.choose(u.y);
+    auto const x = conditional_[y.index].choose(u.x);
+    return {x.index, y.index, x.probability * y.probability, {x.u, y.u}};
+}
+
 float Distribution2D::pdf(Vec2 p) const {
     uint32_t const h = marginal_.size();
     uint32_t const y = std::min(uint32_t(std::max(p.y, 0.f) * float(h)), h - 1);

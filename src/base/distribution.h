@@ -49,12 +49,22 @@ class Distribution2D {
         Vec2 p;
         float pdf; ///< density over the unit square
     };
+    struct Choice {
+        uint32_t x, y;
+        float probability;
+        Vec2 u; ///< the random numbers, stretched back to [0, 1) for use again
+    };
 
     Distribution2D() = default;
     Distribution2D(std::span<float const> weights, uint32_t width, uint32_t height);
 
     Sample sample(Vec2 u) const;
     float pdf(Vec2 p) const;
+    Choice choose(Vec2 u) const;
+    /// Of `choose`, column x and row y.
+    float probability(uint32_t x, uint32_t y) const {
+        return marginal_.probability(y) * conditional_[y].probability(x);
+    }
     float total() const { return marginal_.total(); } ///< the sum of the weights
 
   private:

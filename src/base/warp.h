@@ -16,6 +16,26 @@ inline Vec2 cos_sin_octant(float a) {
     return {1 + a2 * (c - 0.5f), a + a * s};
 }
 
+/// [0, 1) to a density in proportion to lerp(a, b, x), a and b >= 0 and not both 0: its integral
+/// a x + (b - a) x^2 / 2 inverted, in the form that subtracts no near-equals.
+inline float sample_linear(float u, float a, float b) {
+    if (u == 0 && a == 0) return 0;
+    return std::min(u * (a + b) / (a + std::sqrt(a * a + u * (b * b - a * a))), kOneMinusEpsilon);
+}
+/// A point of the unit square in proportion to the bilinear function with the values `corner` at
+/// (0, 0), (1, 0), (0, 1) and (1, 1), >= 0 and not all 0. Density: the function over its mean.
+inline Vec2 sample_bilinear(Vec2 u, float const (&corner)[4]) {
+    float const y = sample_linear(u.y, corner[0] + corner[1], corner[2] + corner[3]);
+    float const left = corner[0] + (corner[2] - corner[0]) * y,
+                right = corner[1] + (corner[3] - corner[1]) * y;
+    return {sample_linear(u.x, left, right), y};
+}
+inline float bilinear(Vec2 p, float const (&corner)[4]) {
+    float const top = corner[0] + (corner[1] - corner[0]) * p.x,
+                bottom = corner[2] + (corner[3] - corner[2]) * p.x;
+    return top + (bottom - top) * p.y;
+}
+
 /// Unit square to unit disk: Shirley and Chiu 1997, concentric. Density 1 / pi.
 inline Vec2 square_to_disk(Vec2 u) {
     float const x = 2 * u.x - 1, y = 2 * u.y - 1;

@@ -76,6 +76,10 @@ Color direction_color(Vec3 const& v) { return as_color((v + Vec3(1)) * 0.5f); }
 
 } // namespace
 
+bool combines_strategies(scene::Integrator const& integrator) {
+    return path_settings(integrator).strategy == scene::Strategy::mis;
+}
+
 PixelRenderer::PixelRenderer(world::World const& world, scene::Integrator const& integrator,
                              scene::Sampler const& sampler, uint32_t seed, int samples_per_pixel)
     : world_(world), integrator_(integrator), path_(path_settings(integrator)),

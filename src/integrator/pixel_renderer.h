@@ -7,6 +7,9 @@
 
 namespace weft::integrator {
 
+/// Whether what light sampling misses is found by rays: see world::CommitOptions::compensate.
+bool combines_strategies(scene::Integrator const& integrator);
+
 class PixelRenderer {
   public:
     /// `samples_per_pixel`: how many are to be taken, 0 for what the sampler says; footprints of

@@ -171,6 +171,10 @@ int32_t SceneBuilder::add(scene::LightKind, XmlElement const& e) {
     return append(scene_.lights, std::move(light));
 }
 
+int32_t SceneBuilder::add(scene::PortalKind, XmlElement const& e) {
+    return append(scene_.portals, read_struct<scene::Portal>(e));
+}
+
 int32_t SceneBuilder::add(scene::IntegratorKind, XmlElement const& e) {
     integrator_element = &e;
     return 0;
@@ -334,6 +338,21 @@ void SceneBuilder::complete(scene::AreaLight& light, XmlElement const& element) 
         throw InputError(element.where, element_title(element) +
                                             " expects an instance with an <emission>, found one "
                                             "without");
+}
+
+void SceneBuilder::complete(scene::SkyLight& light, XmlElement const& element) {
+    if (!light.date.empty() && !scene::parse_date(light.date))
+        throw InputError(location_of(element, "date"), "'date' of " + element_title(element) +
+                                                           " expects a day, as 2026-06-21, found " +
+                                                           in_quotes(light.date));
+}
+
+void SceneBuilder::complete(scene::Portal& portal, XmlElement const& element) {
+    Affined const& m = portal.transform;
+    if (std::abs(dot(m.x, m.y)) > 1e-4 * length(m.x) * length(m.y))
+        throw InputError(location_of(element, "transform"),
+                         "<portal> expects a transform that leaves it a rectangle, found one that "
+                         "shears it");
 }
 
 SceneBuilder::Summary SceneBuilder::summary(scene::Instance const& instance) const {

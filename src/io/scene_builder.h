@@ -75,6 +75,7 @@ class SceneBuilder {
     int32_t add(scene::ShapeKind, XmlElement const& element);
     int32_t add(scene::InstanceKind, XmlElement const& element);
     int32_t add(scene::LightKind, XmlElement const& element);
+    int32_t add(scene::PortalKind, XmlElement const& element);
     int32_t add(scene::SamplerKindTag, XmlElement const& element);
     /// Scenes, images and integrators are read by whoever asked for them.
     int32_t add(scene::SceneKind, XmlElement const& element);
@@ -98,6 +99,8 @@ class SceneBuilder {
     void complete(scene::DirectionalLight& light, XmlElement const& element);
     void complete(scene::SpotLight& light, XmlElement const& element);
     void complete(scene::AreaLight& light, XmlElement const& element);
+    void complete(scene::SkyLight& light, XmlElement const& element);
+    void complete(scene::Portal& portal, XmlElement const& element);
     void complete(scene::SceneContents& contents, XmlElement const& element);
 
     /// Throws where a part of a material is what only whole materials can be.

@@ -263,6 +263,7 @@ std::vector<schema::Schema> all_schemas() {
     all.push_back(schema::schema_of<scene::LambertianEmission>());
     add_schemas<scene::Texture>(all);
     add_schemas<scene::Light>(all);
+    all.push_back(schema::schema_of<scene::Portal>());
     all.push_back(schema::schema_of<scene::HomogeneousMedium>());
     all.push_back(schema::schema_of<scene::ConstantVolume>());
     add_schemas<scene::Sampler>(all);

@@ -1,9 +1,34 @@
 // Light from infinitely far away in all directions.
 #pragma once
 
+#include <vector>
+
 #include "scene/light_controls.h"
 
 namespace weft::scene {
+
+/// Where light comes in.
+struct Portal {
+    static constexpr schema::TypeInfo info{
+        .category = "portal",
+        .type = "",
+        .help = "A window that light from all around comes in by: a rectangle, [-1, 1]^2 in the "
+                "local x-y plane, whose z axis points into the room. It is not seen. Light "
+                "sampling on that side of it looks for the light through portals alone.",
+        .example = "<portal><transform><scale x=\"0.6\" y=\"0.8\"/>"
+                   "<translate z=\"-2\"/></transform></portal>"};
+    Affined transform;
+
+    template <class F>
+    constexpr void describe(F&& f) {
+        f("transform", transform,
+          {.help = "From the rectangle's space to the world, without shear."});
+    }
+};
+
+inline constexpr schema::Attr kPortalAttr{
+    .help = "Windows that all of the light comes in by, for less noise in rooms. Light that comes "
+            "another way is there, but noisy."};
 
 struct EnvironmentLight {
     static constexpr schema::TypeInfo info{
@@ -14,12 +39,17 @@ struct EnvironmentLight {
         .example = "<light type=\"envmap\"><texture type=\"image\" filename=\"sky.hdr\"/></light>"};
     Input<Color> texture{Color(1)};
     Affined transform;
+    std::vector<PortalId> portals;
     LightControls controls;
 
     template <class F>
     constexpr void describe(F&& f) {
         f("texture", texture, {.unit = "W/(m^2 sr)", .min = 0, .help = "Radiance by direction."});
-        f("transform", transform, {.help = "Rotation from the map's space to the world."});
+        f("transform", transform,
+          {.help =
+               "From the map's space to the world: turns and mirrors the map; unequal scales and "
+               "shear stretch it, as if painted on a far sphere. The rest does nothing."});
+        f("portal", portals, kPortalAttr);
         f.group(controls);
     }
 };

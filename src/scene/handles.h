@@ -41,6 +41,9 @@ struct InstanceKind {
 struct LightKind {
     static constexpr char const* category = "light";
 };
+struct PortalKind {
+    static constexpr char const* category = "portal";
+};
 struct SamplerKindTag {
     static constexpr char const* category = "sampler";
 };
@@ -67,6 +70,7 @@ using MediumId = schema::Id<MediumKind>;
 using ShapeId = schema::Id<ShapeKind>;
 using InstanceId = schema::Id<InstanceKind>;
 using LightId = schema::Id<LightKind>;
+using PortalId = schema::Id<PortalKind>;
 using SamplerId = schema::Id<SamplerKindTag>;
 using FilterId = schema::Id<FilterKindTag>;
 using SceneId = schema::Id<SceneKind>;

@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "scene/environment_light.h"
+#include "scene/sky_light.h"
 
 namespace weft::scene {
 
@@ -92,6 +93,7 @@ struct AreaLight {
     }
 };
 
-using Light = std::variant<PointLight, DirectionalLight, SpotLight, EnvironmentLight, AreaLight>;
+using Light = std::variant<PointLight, DirectionalLight, SpotLight, EnvironmentLight, SkyLight,
+                           AreaLight>;
 
 } // namespace weft::scene

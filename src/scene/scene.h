@@ -58,6 +58,7 @@ struct Scene {
     std::vector<Shape> shapes;
     std::vector<Instance> instances;
     std::vector<Light> lights;
+    std::vector<Portal> portals;
 
     /// What files hold; shared, since several scenes of one document may use them.
     std::vector<std::shared_ptr<Mesh const>> meshes;

@@ -1,40 +1,113 @@
-// The part of WorldBuilder that makes environments.
+// The part of WorldBuilder that makes environments and skies.
+#include "lights/solar_position.h"
 #include "world/world_builder.h"
 
 namespace weft::world {
 
 namespace {
 
-/// A rotation: the map's axes of length 1, without translation.
-Affine rotation_of(Affined const& m) {
-    return Affine(Affined(normalize(m.x), normalize(m.y), normalize(m.z), Vec3d(0)));
+using Grid = lights::EnvironmentGrid;
+
+/// Larger maps are sampled by the means over several of their texels.
+constexpr int kMostColumns = 8192;
+/// Of the light that is sampled evenly, where the grid only resembles what is looked up.
+constexpr float kEvenPart = 0.02f;
+
+/// The image that a map is, looked up at the map's own uv; null where it is anything else.
+scene::ImageTexture const* plain_image(scene::Scene const& scene, scene::Input<Color> const& map) {
+    if (!map.texture) return nullptr;
+    auto const* image =
+        std::get_if<scene::ImageTexture>(&scene.textures[size_t(map.texture.index)]);
+    bool const tiles = image && image->filename.path.find(scene::kUdim) != std::string::npos;
+    return image && !image->texcoord.texture && !tiles ? image : nullptr;
 }
 
-/// For each cell of a lat-long grid the mean luminance over the footprint of the bilinear filter:
-/// positive wherever a lookup in the cell can be, so that no light goes unsampled.
-std::vector<float> environment_cells(shading::Textures const& textures,
-                                     scene::Input<Color> const& input, Vec2i size) {
-    std::vector<float> values(size_t(size.x) * size_t(size.y)), cells(values.size());
-    auto at = [&](int x, int y) -> float& {
-        return values[size_t(y) * size_t(size.x) + size_t(x)];
-    };
-    for (int y = 0; y < size.y; ++y)
-        for (int x = 0; x < size.x; ++x) {
-            Vec2 const uv((float(x) + 0.5f) / float(size.x), (float(y) + 0.5f) / float(size.y));
-            at(x, y) = luminance(textures.radiance(input, uv));
+/// How bright `map` is, as far as sampling wants to know. An image alone is known texel by texel.
+/// Networks are looked up at four places per texel; as something may be between them, and larger
+/// images are taken as networks, everything else is sampled a little as well.
+Grid brightness(shading::Textures const& textures, scene::Scene const& scene,
+                scene::Input<Color> const& map) {
+    Vec2i size = map.texture ? textures.resolution(map.texture) : Vec2i(1, 1);
+    scene::ImageTexture const* image = plain_image(scene, map);
+    bool const exact = !map.texture || (image && size.x <= kMostColumns);
+    int const step = (size.x + kMostColumns - 1) / kMostColumns;
+    size = Vec2i((size.x + step - 1) / step, (size.y + step - 1) / step);
+    bool const nearest = exact && image && image->filter == scene::TextureFilter::nearest;
+
+    Grid grid{nearest || !map.texture ? Grid::Filter::nearest : Grid::Filter::bilinear,
+              uint32_t(size.x),
+              uint32_t(size.y),
+              {}};
+    grid.values.resize(size_t(grid.width) * grid.rows());
+    Vec2 const half_cell(0.5f / float(size.x), 0.5f / float(size.y));
+    double sum = 0;
+    for (uint32_t y = 0; y < grid.rows(); ++y)
+        for (uint32_t x = 0; x < grid.width; ++x) {
+            Vec2 const uv = grid.uv(x, y);
+            float& value = grid.values[size_t(y) * grid.width + x];
+            if (exact) {
+                value = luminance(textures.radiance(map, uv));
+                continue;
+            }
+            for (int k = 0; k < 4 * step * step; ++k) {
+                Vec2 at(float(k % (2 * step)) + 0.5f, float(k / (2 * step)) + 0.5f);
+                at = uv + half_cell * (at / float(step) - Vec2(1));
+                at.y = std::clamp(at.y, 0.f, 1.f);
+                value += luminance(textures.radiance(map, at)) / float(4 * step * step);
+            }
+            sum += double(value);
         }
-    for (int y = 0; y < size.y; ++y)
-        for (int x = 0; x < size.x; ++x) {
-            float sum = 0, weight = 0;
-            for (int j = std::max(y - 1, 0); j <= std::min(y + 1, size.y - 1); ++j)
-                for (int i = -1; i <= 1; ++i) {
-                    float const w = (j == y ? 2.f : 1.f) * (i == 0 ? 2.f : 1.f);
-                    sum += w * at((x + i + size.x) % size.x, j);
-                    weight += w;
-                }
-            cells[size_t(y) * size_t(size.x) + size_t(x)] = sum / weight;
-        }
-    return cells;
+    float const even = kEvenPart * float(sum / double(grid.values.size()));
+    for (float& value : grid.values) value += even;
+    return grid;
+}
+
+/// A sky, texel by texel, without noise around the sun: half a degree is finer than it varies.
+constexpr Vec2i kSkySize(768, 384);
+
+Grid brightness(lights::SkyTable const& sky) {
+    Grid grid{Grid::Filter::bilinear, uint32_t(sky.width), uint32_t(sky.height), {}};
+    for (uint32_t y = 0; y < grid.rows(); ++y)
+        for (uint32_t x = 0; x < grid.width; ++x)
+            grid.values.push_back(luminance(sky.at(grid.uv(x, y))));
+    return grid;
+}
+
+/// The linear part of a map between directions, of determinant 1 or -1.
+Affine directions_of(Affined const& m) {
+    double const s = 1 / std::cbrt(std::abs(m.determinant()));
+    return Affine(Affined(m.x * s, m.y * s, m.z * s, Vec3d(0)));
+}
+
+lights::Portal portal_of(scene::Portal const& portal) {
+    Affined const& m = portal.transform;
+    Vec3d const n = normalize(cross(m.x, m.y));
+    Vec3d const inwards = dot(n, m.z) > 0 ? n : -n;
+    return {Vec3(m.origin), Vec3(normalize(m.x)), Vec3(normalize(m.y)),
+            Vec3(-inwards), float(length(m.x)),   float(length(m.y))};
+}
+
+/// The part of samples over the whole sphere where portals are seen and nothing but light sampling
+/// finds light.
+constexpr float kWholePart = 0.125f;
+constexpr uint32_t kPortalCells = 512; ///< along either axis
+/// Of a portal's light that is looked for where its map, as it was looked up, is dark.
+constexpr float kEvenPortalPart = 0.01f;
+
+/// Where the sun is, in the space of its light.
+Vec3 sun_direction(scene::SkyLight const& light) {
+    double elevation = double(radians(light.elevation)), azimuth = double(radians(light.azimuth));
+    if (auto const date = scene::parse_date(light.date)) {
+        auto const p = lights::solar_position(
+            date->year, date->month, date->day, double(light.time), double(light.time_zone),
+            double(radians(light.latitude)), double(radians(light.longitude)));
+        elevation = p.elevation;
+        azimuth = p.azimuth;
+    } else if (length_squared(light.direction) > 0) {
+        return normalize(light.direction);
+    }
+    double const r = std::cos(elevation);
+    return Vec3(Vec3d(r * std::sin(azimuth), std::sin(elevation), -r * std::cos(azimuth)));
 }
 
 } // namespace
@@ -47,17 +120,55 @@ void WorldBuilder::prepare_environment(scene::EnvironmentLight const& light,
                                 "uv alone, found one that depends on a surface");
 }
 
+bool WorldBuilder::is_compensated(scene::LightControls const& controls) const {
+    return options_.compensate && !is_sampled_alone(controls);
+}
+
+void WorldBuilder::add_environment(EnvironmentLight light, std::span<scene::PortalId const> portals,
+                                   scene::LightControls const& controls, LightList& list) {
+    light.to_map = light.to_world.inverse();
+    std::vector<lights::PortalMap> maps;
+    auto const brightness_of = [&](Vec3 const& d) {
+        return luminance(light.radiance(world_.textures_, d));
+    };
+    float const even = kEvenPortalPart * light.sampler.total() / (4 * kPi);
+    uint32_t const lookups = std::min(light.sampler.columns() / (2 * kPortalCells) + 1, 8u);
+    for (scene::PortalId id : portals)
+        maps.emplace_back(portal_of(scene_.portals[size_t(id.index)]), kPortalCells, lookups, even,
+                          brightness_of);
+    light.portals = lights::PortalSampler(std::move(maps));
+    light.whole = is_compensated(controls) ? 0 : kWholePart;
+    float const power = list.cross_section * light.sampler.total();
+    list.add(std::move(light), at_infinity(), power, controls);
+}
+
 void WorldBuilder::add_light(scene::EnvironmentLight const& light, SourceLocation const& where,
                              LightList& list) {
     prepare_environment(light, where);
-    Affine const to_world = rotation_of(light.transform);
-    Vec2i const size =
-        light.texture.texture ? world_.textures_.resolution(light.texture.texture) : Vec2i(1, 1);
-    auto const cells = environment_cells(world_.textures_, light.texture, size);
-    lights::EnvironmentSampler sampler(cells, uint32_t(size.x), uint32_t(size.y));
-    float const power = list.cross_section * sampler.total();
-    list.add(EnvironmentLight{light.texture, to_world, to_world.inverse(), std::move(sampler)},
-             at_infinity(), power, light.controls);
+    lights::EnvironmentSampler sampler(brightness(world_.textures_, scene_, light.texture),
+                                       is_compensated(light.controls));
+    add_environment({light.texture, directions_of(light.transform), {}, std::move(sampler), {}},
+                    light.portals, light.controls, list);
+}
+
+void WorldBuilder::add_light(scene::SkyLight const& light, SourceLocation const&, LightList& list) {
+    Vec3 const sun = sun_direction(light);
+    lights::SkyTable table = lights::make_sky_table(
+        {sun, light.turbidity, light.ground, light.sky_intensity, light.sun_intensity}, kSkySize.x,
+        kSkySize.y);
+    lights::EnvironmentSampler sampler(brightness(table), is_compensated(light.controls));
+    Affine const to_world = directions_of(light.transform);
+    add_environment({std::move(table), to_world, {}, std::move(sampler), {}}, light.portals,
+                    light.controls, list);
+
+    Color const irradiance = lights::sun_irradiance(double(light.turbidity),
+                                                    std::asin(std::clamp(double(sun.y), -1., 1.))) *
+                             light.sun_intensity;
+    if (is_black(irradiance)) return;
+    list.add(lights::make_sun_disk(normalize(to_world.vector(sun)),
+                                   radians(0.5f * lights::kSunDiameter * light.sun_size),
+                                   irradiance, lights::kSunLimb),
+             at_infinity(), list.cross_section * luminance(irradiance), light.controls);
 }
 
 } // namespace weft::world

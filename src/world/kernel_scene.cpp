@@ -166,8 +166,8 @@ RTCScene WorldBuilder::instanced_scene(Object const& object) {
     return scene;
 }
 
-void WorldBuilder::build_kernel_scene(CommitOptions const& options) {
-    std::string const config = options.isa.empty() ? "" : "isa=" + options.isa;
+void WorldBuilder::build_kernel_scene() {
+    std::string const config = options_.isa.empty() ? "" : "isa=" + options_.isa;
     world_.device_ = rtcNewDevice(config.c_str());
     if (!world_.device_)
         throw InputError("the ray kernel cannot be started" +

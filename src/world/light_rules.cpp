@@ -2,10 +2,14 @@
 
 namespace weft::world {
 
+bool is_sampled_alone(scene::LightControls const& c) {
+    return !c.visible_to_secondary || !c.cast_shadows || !c.shadowed_by.empty();
+}
+
 LightRules::LightRules(scene::LightControls const& c, lights::LightBounds const& bounds,
                        float power, float cross_section)
     : by_kind(c.diffuse != c.specular || c.diffuse != c.transmission || c.diffuse != c.volume),
-      sampling_alone(!c.visible_to_secondary || !c.cast_shadows || !c.shadowed_by.empty()),
+      sampling_alone(is_sampled_alone(c)),
       shown(c.visible_to_secondary), by_ray_kind_{c.visible_to_camera ? 1.f : 0.f, c.diffuse,
                                                   c.specular, c.transmission, c.volume},
       direct_(c.direct), indirect_(c.indirect), min_contribution_(c.min_contribution),

@@ -32,6 +32,9 @@ struct Arrival {
     float distance = 0;             ///< from the light
 };
 
+/// Whether light sampling has to find all of the light, even where strategies are combined.
+bool is_sampled_alone(scene::LightControls const& controls);
+
 struct LightRules {
     bool in_use = false;               ///< else every factor is 1
     bool by_kind = false;              ///< factors differ between kinds of scattering

@@ -8,7 +8,8 @@ LightTable::LightTable(std::vector<Light> lights, std::span<lights::LightBounds 
                        World const& world)
     : lights_(std::move(lights)), tree_(bounds), world_(&world), textures_(&world.textures()) {
     for (size_t i = 0; i < lights_.size(); ++i)
-        if (std::holds_alternative<EnvironmentLight>(lights_[i].kind))
+        if (std::holds_alternative<EnvironmentLight>(lights_[i].kind) ||
+            std::holds_alternative<lights::SunDisk>(lights_[i].kind))
             environments_.push_back(int32_t(i));
 }
 
@@ -22,6 +23,17 @@ LightSample from_delta(lights::DeltaLightSample const& s) {
     sample.radiance = s.irradiance;
     sample.pdf = 1;
     sample.delta = true;
+    return sample;
+}
+
+/// Of an environment or a disk: {direction, radiance, pdf}.
+template <class Sample>
+LightSample from_infinity(Sample const& s) {
+    LightSample sample;
+    sample.wi = s.direction;
+    sample.distance = kInfinity;
+    sample.radiance = s.radiance;
+    sample.pdf = s.pdf;
     return sample;
 }
 
@@ -62,14 +74,22 @@ LightSample LightTable::sample_light(AreaLight const& l, Vec3 const& ref, Vec2 u
     return sample;
 }
 
-LightSample LightTable::sample_light(EnvironmentLight const& l, Vec3 const&, Vec2 u) const {
-    auto const s = l.sampler.sample(u);
-    LightSample sample;
-    sample.wi = normalize(l.to_world.vector(s.direction));
-    sample.distance = kInfinity;
-    sample.radiance = textures_->radiance(l.texture, s.uv);
-    sample.pdf = s.pdf;
-    return sample;
+LightSample LightTable::sample_light(EnvironmentLight const& l, Vec3 const& ref, Vec2 u) const {
+    return from_infinity(l.sample(*textures_, ref, u));
+}
+
+LightTable::Found LightTable::found_at(EnvironmentLight const& l, Vec3 const& ref,
+                                       Vec3 const& d) const {
+    auto const s = l.found(*textures_, ref, d);
+    return {s.radiance, s.pdf};
+}
+
+LightSample LightTable::sample_light(lights::SunDisk const& l, Vec3 const&, Vec2 u) const {
+    return from_infinity(l.sample(u));
+}
+
+LightTable::Found LightTable::found_at(lights::SunDisk const& l, Vec3 const&, Vec3 const& d) const {
+    return {l.radiance(d), l.pdf(d)};
 }
 
 LightSample LightTable::sample(Vec3 const& ref, Vec3 const& n, Vec3 const& u) const {

@@ -85,6 +85,9 @@ struct Object {
 struct CommitOptions {
     std::string isa;  ///< Embree's kernels: "sse2", "avx2", "avx512"; "" is the best there is
     Vec2i size{0, 0}; ///< of the picture, instead of the scene's; 0: the scene's
+    /// Light sampling leaves to BSDF sampling what that finds well: only for renders that combine
+    /// both (integrator::combines_strategies).
+    bool compensate = false;
 };
 
 /// Counts for `weft info`.

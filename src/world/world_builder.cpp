@@ -38,14 +38,14 @@ std::unique_ptr<World const> World::commit(std::shared_ptr<scene::Scene const> s
                                            CommitOptions const& options) {
     std::unique_ptr<World> world(new World);
     world->scene_ = scene;
-    WorldBuilder(*world, *scene).build(options);
+    WorldBuilder(*world, *scene, options).build();
     return world;
 }
 
-void WorldBuilder::build(CommitOptions const& options) {
+void WorldBuilder::build() {
     auto const& camera = scene_.cameras[size_t(scene_.contents.camera.index)];
     world_.camera_ = CameraRays(camera, scene_.images);
-    if (options.size.x > 0) world_.camera_.resize(options.size);
+    if (options_.size.x > 0) world_.camera_.resize(options_.size);
     for (scene::Texture const& node : scene_.textures)
         if (auto const* image = std::get_if<scene::ImageTexture>(&node))
             world_.use_footprints_ |= image->filter == scene::TextureFilter::mipmap;
@@ -55,7 +55,7 @@ void WorldBuilder::build(CommitOptions const& options) {
     compile_networks();
     rank_boundaries();
     attach_attributes();
-    build_kernel_scene(options);
+    build_kernel_scene();
     build_lights();
     media::Interior space;
     if (scene_.contents.medium) {

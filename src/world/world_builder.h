@@ -32,9 +32,9 @@ inline lights::LightBounds at_infinity() {
 
 class WorldBuilder {
   public:
-    WorldBuilder(World& world, scene::Scene const& scene)
-        : world_(world), scene_(scene), compiler_(scene) {}
-    void build(CommitOptions const& options);
+    WorldBuilder(World& world, scene::Scene const& scene, CommitOptions const& options)
+        : world_(world), scene_(scene), options_(options), compiler_(scene) {}
+    void build();
 
   private:
     /// What an instance hands down to the members of a group.
@@ -68,7 +68,7 @@ class WorldBuilder {
     /// are; then the smaller volume above the larger, so that what is put inside of another thing
     /// is there; then the earlier object above the later.
     void rank_boundaries();
-    void build_kernel_scene(CommitOptions const& options);
+    void build_kernel_scene();
     RTCGeometry make_mesh(TriangleData const& triangles) const;
     RTCGeometry make_sphere(Vec3 const& centre, float radius) const;
     RTCScene instanced_scene(Object const& object);
@@ -89,11 +89,18 @@ class WorldBuilder {
     void add_light(scene::DirectionalLight const&, SourceLocation const&, LightList&);
     void add_light(scene::SpotLight const&, SourceLocation const&, LightList&);
     void add_light(scene::EnvironmentLight const&, SourceLocation const&, LightList&);
+    void add_light(scene::SkyLight const&, SourceLocation const&, LightList&);
+    /// Whether rays find what sampling of the light leaves.
+    bool is_compensated(scene::LightControls const& controls) const;
+    /// `light` without its portals and `to_map`.
+    void add_environment(EnvironmentLight light, std::span<scene::PortalId const> portals,
+                         scene::LightControls const& controls, LightList& list);
     void add_area_lights(LightList& list);
     void count();
 
     World& world_;
     scene::Scene const& scene_;
+    CommitOptions const& options_;
     shading::GraphCompiler compiler_;
     std::map<int32_t, int> mesh_uses_;                   ///< objects per mesh
     std::map<std::pair<int32_t, bool>, int32_t> shared_; ///< mesh, smooth -> triangles

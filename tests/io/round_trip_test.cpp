@@ -148,14 +148,20 @@ TEST(RoundTrip, EveryTypeOfEveryCategory) {
             .textures.at(0);
     });
     round_trips<std::variant<scene::PointLight, scene::DirectionalLight, scene::SpotLight,
-                             scene::EnvironmentLight>>("", [](std::string const& t) {
-        return parse("<scene>" + kCamera + t + "</scene>").lights.at(0);
-    });
+                             scene::EnvironmentLight, scene::SkyLight>>(
+        "", [](std::string const& t) {
+            return parse("<scene>" + kCamera + t + "</scene>").lights.at(0);
+        });
     round_trips<std::variant<scene::AreaLight>>(
         "<instance><shape type='sphere'/><emission type='lambertian'/></instance>",
         [](std::string const& t) {
             return parse("<scene>" + kCamera + t + "</scene>").lights.at(0);
         });
+    round_trips<std::variant<scene::Portal>>("", [](std::string const& t) {
+        return std::variant<scene::Portal>(
+            parse("<scene>" + kCamera + "<light type='envmap'>" + t + "</light></scene>")
+                .portals.at(0));
+    });
     round_trips<std::variant<scene::LambertianEmission>>("", [](std::string const& t) {
         return std::variant<scene::LambertianEmission>(parse_in_instance(t).emissions.at(0));
     });

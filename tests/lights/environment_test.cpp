@@ -50,6 +50,12 @@ struct Map {
     char const* name;
     uint32_t width, height;
     std::vector<float> luminance;
+    EnvironmentGrid::Filter filter = EnvironmentGrid::Filter::nearest;
+    bool compensated = false;
+
+    EnvironmentSampler sampler() const {
+        return EnvironmentSampler({filter, width, height, luminance}, compensated);
+    }
 };
 
 std::vector<Map> maps() {
@@ -75,6 +81,27 @@ std::vector<Map> maps() {
     add("broken values", 8, 4, [](U x, U y) {
         return x == 1 ? -3.f : x == 2 ? kInfinity : x == 3 ? std::nanf("") : float(1 + y);
     });
+    return result;
+}
+
+/// The same as the texels of bilinear maps, whose last row is there twice as at a clamped border,
+/// and both kinds compensated.
+std::vector<Map> all_maps() {
+    std::vector<Map> result = maps();
+    for (Map const& m : maps()) {
+        Map smooth = m;
+        smooth.filter = EnvironmentGrid::Filter::bilinear;
+        auto& v = smooth.luminance;
+        std::vector<float> const first(v.begin(), v.begin() + m.width);
+        std::vector<float> const last(v.end() - m.width, v.end());
+        v.insert(v.begin(), first.begin(), first.end());
+        v.insert(v.end(), last.begin(), last.end());
+        result.push_back(smooth);
+    }
+    for (size_t i : {size_t(4), size_t(5), maps().size() + 4, maps().size() + 5}) {
+        result.push_back(result[i]);
+        result.back().compensated = true;
+    }
     return result;
 }
 
@@ -110,27 +137,32 @@ struct TiltedBins {
 };
 
 TEST(Environment, directions_follow_the_density) {
-    auto const all = maps();
+    auto const all = all_maps();
     double const level = testing::sidak(kAlpha, 2 * int(all.size()));
-    int const samples = 500'000;
-    double const evaluations = 4e6;
+    int const samples = 200'000;
+    double const evaluations = 2e6;
     TiltedBins const bins;
     for (Map const& m : all) {
         SCOPED_TRACE(m.name);
-        EnvironmentSampler const sampler(m.luminance, m.width, m.height);
+        EnvironmentSampler const sampler = m.sampler();
         std::vector<double> observed(TiltedBins::kCount), expected(TiltedBins::kCount);
         Rng rng(32);
         for (int i = 0; i < samples; ++i)
             ++observed[size_t(bins.find(Vec3d(sampler.sample(rng.next2()).direction)))];
-        // As many evaluations as the time allows, more where an error would weigh more.
-        double share = 0;
-        for (double count : observed) share += std::sqrt(count + 1);
+        // As many evaluations as the time allows, more where an error would weigh more; the light
+        // of a bin may all be in a small corner of it.
+        double share = 0, lit = 0;
+        for (double count : observed) {
+            share += std::sqrt(count + 1);
+            lit += count > 0;
+        }
         double integral = 0, variance = 0;
         for (int b = 0; b < TiltedBins::kCount; ++b) {
-            double const part = std::sqrt(observed[size_t(b)] + 1) / share;
+            double const part = 0.5 * std::sqrt(observed[size_t(b)] + 1) / share +
+                                (observed[size_t(b)] > 0 ? 0.5 / lit : 0);
             int const grid = int(std::sqrt(evaluations * part));
             auto const [value, its_variance] = bins.integrate(sampler, b, grid, rng);
-            expected[size_t(b)] = value * samples;
+            expected[size_t(b)] = value * samples + 1e-6; // a corner may be missed
             integral += value;
             variance += its_variance;
         }
@@ -151,7 +183,7 @@ TEST(Environment, cells_are_chosen_by_light_and_solid_angle) {
     for (Map const& m : all) {
         SCOPED_TRACE(m.name);
         if (m.width * m.height == 1) continue;
-        EnvironmentSampler const sampler(m.luminance, m.width, m.height);
+        EnvironmentSampler const sampler = m.sampler();
         std::vector<double> expected(m.luminance.size()), observed(m.luminance.size());
         double total = 0;
         for (uint32_t i = 0; i < expected.size(); ++i) {
@@ -182,27 +214,31 @@ TEST(Environment, cells_are_chosen_by_light_and_solid_angle) {
 }
 
 TEST(Environment, sample_and_pdf_agree) {
-    for (Map const& m : maps()) {
+    for (Map const& m : all_maps()) {
         SCOPED_TRACE(m.name);
-        EnvironmentSampler const sampler(m.luminance, m.width, m.height);
+        EnvironmentSampler const sampler = m.sampler();
         Rng rng(34);
-        int disagree = 0;
+        int disagree = 0, none = 0;
         int const n = 50'000;
+        float peak = 0; // next to which the slopes of bilinear cells turn rounding into noise
+        for (int i = 0; i < n; ++i) peak = std::max(peak, sampler.sample(rng.next2()).pdf);
         for (int i = 0; i < n; ++i) {
             auto const s = sampler.sample(rng.next2());
-            ASSERT_TRUE(s.pdf > 0 && std::isfinite(s.pdf));
+            ASSERT_TRUE(s.pdf >= 0 && std::isfinite(s.pdf));
+            none += s.pdf == 0;
             EXPECT_NEAR(length(s.direction), 1, 1e-6);
             EXPECT_LT(length(uv_to_direction(s.uv) - s.direction), 2e-6);
-            disagree += std::abs(sampler.pdf(s.direction) / s.pdf - 1) > 1e-5f;
+            disagree += std::abs(sampler.pdf(s.direction) - s.pdf) > 1e-5f * (s.pdf + 2 * peak);
         }
+        EXPECT_LE(none, 1); // a black corner
         // Only where rounding moves a direction over the edge of a cell.
         EXPECT_LE(disagree, n / 2000);
     }
 }
 
 TEST(Environment, a_uniform_map_is_sampled_uniformly) {
-    std::vector<float> const ones(64 * 33, 1.f);
-    EnvironmentSampler const sampler(ones, 64, 33);
+    EnvironmentSampler const sampler(EnvironmentGrid{EnvironmentGrid::Filter::nearest, 64, 33,
+                                                     std::vector<float>(64 * 33, 1.f)});
     EXPECT_NEAR(sampler.total(), 2 * kTau, 1e-5);
     Rng rng(35);
     for (int i = 0; i < 1000; ++i)
@@ -215,6 +251,54 @@ TEST(Environment, a_uniform_map_is_sampled_uniformly) {
             EXPECT_NEAR(s.pdf * float(2 * kTau), 1, 2e-5);
             EXPECT_NEAR(length(s.direction), 1, 1e-6);
         }
+}
+
+TEST(Environment, a_compensated_map_is_sampled_where_it_is_brighter_than_its_mean) {
+    for (Map const& m : all_maps()) {
+        if (!m.compensated) continue;
+        SCOPED_TRACE(m.name);
+        EnvironmentSampler const sampler = m.sampler();
+        Map full = m;
+        full.compensated = false;
+        EXPECT_EQ(sampler.total(), full.sampler().total());
+        float const mean = sampler.total() / float(2 * kTau);
+        Rng rng(36);
+        for (int i = 0; i < 10'000; ++i) {
+            Vec2 const uv = sampler.sample(rng.next2()).uv;
+            if (m.filter != EnvironmentGrid::Filter::nearest) continue;
+            auto const x = std::min(uint32_t(uv.x * float(m.width)), m.width - 1);
+            auto const y = std::min(uint32_t(uv.y * float(m.height)), m.height - 1);
+            ASSERT_GE(m.luminance[y * m.width + x], mean);
+        }
+    }
+    // Of what is even, nothing would be left.
+    std::vector<float> values(16 * 8, 1.f);
+    values[37] = 1.0001f;
+    EnvironmentSampler const even({EnvironmentGrid::Filter::nearest, 16, 8, values}, true);
+    EXPECT_NEAR(even.pdf({0, 1, 0}) * float(2 * kTau), 1, 2e-4);
+}
+
+// What makes a small sun as good as a directional light: the ratio of a bilinear map to its density
+// is as good as constant.
+TEST(Environment, bilinear_suns_are_sampled_without_noise) {
+    for (uint32_t row : {32u, 12u, 50u}) {
+        EnvironmentGrid grid{EnvironmentGrid::Filter::bilinear, 128, 64, {}};
+        grid.values.assign(128 * 66, 0.f);
+        grid.values[size_t(row) * 128] = 1; // at the seam
+        EnvironmentSampler const sampler(grid);
+        Rng rng(37);
+        std::vector<double> estimates;
+        for (int i = 0; i < 20'000; ++i) {
+            auto const s = sampler.sample(rng.next2());
+            double const du = 1 - std::abs(std::remainder(double(s.uv.x) * 128 - 0.5, 128));
+            double const dv = 1 - std::abs(double(s.uv.y) * 64 + 0.5 - row);
+            ASSERT_GT(std::min(du, dv), -1e-4);
+            estimates.push_back(std::max(du, 0.0) * std::max(dv, 0.0) / double(s.pdf));
+        }
+        auto const e = testing::estimate(estimates);
+        // A twentieth of the radius of the sphere's row per texel, between cos theta and theta.
+        EXPECT_LT(std::sqrt(e.variance * 20'000) / e.mean, 0.05) << row;
+    }
 }
 
 } // namespace

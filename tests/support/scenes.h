@@ -47,7 +47,8 @@ inline TestScene make_scene(std::string const& contents,
     std::string const text = "<integrator " + integrator + "><sampler " + sampler + "/><scene>" +
                              contents + "</scene></integrator>";
     TestScene made{io::parse_scene(text, "test", folder).jobs.at(0), nullptr};
-    made.world = world::World::commit(made.job.scene);
+    made.world = world::World::commit(
+        made.job.scene, {.compensate = integrator::combines_strategies(made.job.integrator)});
     return made;
 }
 

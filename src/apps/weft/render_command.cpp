@@ -10,6 +10,7 @@
 #include "apps/weft/scene_loading.h"
 #include "apps/weft/texture_options.h"
 #include "image/write.h"
+#include "integrator/pixel_renderer.h"
 #include "session/render.h"
 
 namespace weft::apps {
@@ -91,7 +92,9 @@ int render_job(RenderArguments& a, io::RenderJob const& job, bool only_job,
     auto const paths = output_paths(a, job, only_job);
     for (std::string const& path : paths) image::check_writable(path);
     check_aovs(a, job, paths);
-    auto const world = world::World::commit(job.scene, {a.isa, parse_size(a.size, *job.scene)});
+    auto const world =
+        world::World::commit(job.scene, {a.isa, parse_size(a.size, *job.scene),
+                                         integrator::combines_strategies(job.integrator)});
     for (std::string const& lint : lint_warnings(*world)) fmt::print(stderr, "warning: {}\n", lint);
 
     ProgressLine progress(progress_style(a.progress));

@@ -1,0 +1,65 @@
+#include "world/environment_light.h"
+
+#include "base/match.h"
+
+namespace weft::world {
+
+namespace {
+
+float cubed(float x) { return x * x * x; }
+
+} // namespace
+
+Color EnvironmentLight::radiance(shading::Textures const& textures, Vec2 uv) const {
+    return match(map,
+                 Overloaded{
+                     [&](scene::Input<Color> const& input) { return textures.radiance(input, uv); },
+                     [&](lights::SkyTable const& sky) { return sky.at(uv); },
+                 });
+}
+
+Color EnvironmentLight::radiance(shading::Textures const& textures, Vec3 const& d) const {
+    return radiance(textures, lights::direction_to_uv(to_map.vector(d)));
+}
+
+EnvironmentLight::Sample EnvironmentLight::sample_whole(shading::Textures const& textures,
+                                                        Vec2 u) const {
+    auto const s = sampler.sample(u);
+    Vec3 const d = to_world.vector(s.direction);
+    float const stretch = length(d);
+    return {d * (1 / stretch), radiance(textures, s.uv), s.pdf * cubed(stretch)};
+}
+
+EnvironmentLight::Sample EnvironmentLight::sample(shading::Textures const& textures,
+                                                  Vec3 const& ref, Vec2 u) const {
+    double const light = portals.light_at(ref);
+    if (!(light > 0)) return sample_whole(textures, u);
+    if (u.x < whole) {
+        Sample s = sample_whole(textures, {u.x / whole, u.y});
+        s.pdf = whole * s.pdf + (1 - whole) * portals.pdf(ref, light, s.direction);
+        return s;
+    }
+    auto const s = portals.sample(ref, light, {(u.x - whole) / (1 - whole), u.y});
+    float pdf = (1 - whole) * s.pdf;
+    if (whole > 0) {
+        Vec3 const m = to_map.vector(s.direction);
+        float const shrink = 1 / length(m);
+        pdf += whole * sampler.pdf(m * shrink) * cubed(shrink);
+    }
+    return {s.direction, radiance(textures, s.direction), pdf};
+}
+
+EnvironmentLight::Sample EnvironmentLight::found(shading::Textures const& textures, Vec3 const& ref,
+                                                 Vec3 const& d) const {
+    Vec3 const m = to_map.vector(d);
+    float const shrink = 1 / length(m);
+    Vec3 const local = m * shrink;
+    Sample s{d, radiance(textures, lights::direction_to_uv(local)), 0};
+    double const light = portals.light_at(ref);
+    float const part = light > 0 ? whole : 1;
+    if (part > 0) s.pdf = part * sampler.pdf(local) * cubed(shrink);
+    if (part < 1) s.pdf += (1 - part) * portals.pdf(ref, light, d);
+    return s;
+}
+
+} // namespace weft::world
