@@ -50,20 +50,24 @@ LightBounds bounds_of(SpotLight const& light) {
     return b;
 }
 
-LightBounds bounds_of(RectangleEmitter const& emitter) {
+LightBounds bounds_of(RectangleEmitter const& emitter, uint32_t) {
     auto const [low, high] = emitter.box();
     return {low, high, emitter.normal(), 0};
 }
 
-LightBounds bounds_of(SphereEmitter const& emitter) {
+LightBounds bounds_of(SphereEmitter const& emitter, uint32_t) {
     auto const [low, high] = emitter.box();
     return {low, high};
 }
 
-LightBounds bounds_of(MeshEmitter const& emitter) {
+LightBounds bounds_of(DiskEmitter const& emitter, uint32_t) {
     auto const [low, high] = emitter.box();
-    auto const [axis, theta] = emitter.normals();
-    return {low, high, axis, theta};
+    return {low, high, emitter.normal(), 0};
+}
+
+LightBounds bounds_of(MeshEmitter const& emitter, uint32_t primitive) {
+    auto const [low, high] = emitter.box(primitive);
+    return {low, high, emitter.normal(primitive), 0};
 }
 
 LightBounds unite(LightBounds const& a, LightBounds const& b) {
@@ -92,8 +96,20 @@ LightBounds unite(std::span<LightBounds const> all) {
     if (all.size() == 1 || u.theta_o >= kPi) return u;
     // Axes that cancel have no mean: one of them will do, and the cone will be wide.
     if (length(axes) > 1e-3f * float(all.size())) u.axis = normalize(axes);
-    for (LightBounds const& b : all)
-        u.theta_o = std::max(u.theta_o, angle_between(u.axis, b.axis) + b.theta_o);
+    // Of all that have no cone of their own, as triangles, the farthest decides.
+    LightBounds const* farthest = nullptr;
+    float least = 2;
+    for (LightBounds const& b : all) {
+        if (b.theta_o > 0) {
+            u.theta_o = std::max(u.theta_o, angle_between(u.axis, b.axis) + b.theta_o);
+        } else if (float const cosine = dot(u.axis, b.axis); cosine < least) {
+            least = cosine;
+            farthest = &b;
+        }
+    }
+    if (farthest) u.theta_o = std::max(u.theta_o, angle_between(u.axis, farthest->axis));
+    // Near 1, cosines tell angles apart by no more than this.
+    if (farthest && least > 0.999f) u.theta_o += 5e-4f;
     u.theta_o = std::min(u.theta_o, kPi);
     return u;
 }

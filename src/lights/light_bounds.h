@@ -29,9 +29,10 @@ struct LightBounds {
 /// Boxes and directions; `power` is 0, for the caller to set.
 LightBounds bounds_of(PointLight const& light);
 LightBounds bounds_of(SpotLight const& light);
-LightBounds bounds_of(RectangleEmitter const& emitter);
-LightBounds bounds_of(SphereEmitter const& emitter);
-LightBounds bounds_of(MeshEmitter const& emitter);
+LightBounds bounds_of(RectangleEmitter const& emitter, uint32_t primitive = 0);
+LightBounds bounds_of(SphereEmitter const& emitter, uint32_t primitive = 0);
+LightBounds bounds_of(DiskEmitter const& emitter, uint32_t primitive = 0);
+LightBounds bounds_of(MeshEmitter const& emitter, uint32_t primitive);
 
 /// What bounds both, which are at finite places. Powers add up.
 LightBounds unite(LightBounds const& a, LightBounds const& b);

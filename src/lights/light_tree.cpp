@@ -38,14 +38,15 @@ LightTree::Four LightTree::importances(Node const& node, Vec3 const& ref, Vec3 c
     return result;
 }
 
-LightTree::Choice LightTree::choose(Vec3 const& ref, Vec3 const& normal, float u) const {
+LightTree::Choice LightTree::choose(Vec3 const& ref, Vec3 const& normal, double u) const {
     float probability = 1;
     if (!infinite_.empty()) {
-        Distribution1D::Choice const c = top_.choose(u);
+        float const coarse = std::min(float(std::floor(u * 0x1p24) * 0x1p-24), kOneMinusEpsilon);
+        Distribution1D::Choice const c = top_.choose(coarse);
         if (c.index >= first_infinite_)
             return {infinite_[c.index - first_infinite_], c.probability, c.u};
         probability = c.probability;
-        u = c.u;
+        u = double(c.u) + (u - double(coarse)) / double(probability);
     } else if (root_ == kNone) {
         return {};
     }
@@ -56,15 +57,17 @@ LightTree::Choice LightTree::choose(Vec3 const& ref, Vec3 const& normal, float u
         Four const share = importances(node, ref, normal, total);
         if (!(total > 0)) return {};
         // Children without a share are passed over: target < total, in the same order of adding.
-        float const target = u * total;
+        double const target = u * double(total);
         Four const before{0, share[0], share[0] + share[1], (share[0] + share[1]) + share[2]};
-        uint32_t const chosen = uint32_t(target >= before[1]) + uint32_t(target >= before[2]) +
-                                uint32_t(target >= before[3]);
-        u = std::clamp((target - before[chosen]) / share[chosen], 0.f, kOneMinusEpsilon);
+        uint32_t const chosen = uint32_t(target >= double(before[1])) +
+                                uint32_t(target >= double(before[2])) +
+                                uint32_t(target >= double(before[3]));
+        u = (target - double(before[chosen])) / double(share[chosen]);
+        u = std::min(std::max(u, 0.0), 0x1.fffffffffffffp-1);
         probability *= share[chosen] / total;
         at = node.child[chosen];
     }
-    return {at & ~kLeaf, probability, u};
+    return {at & ~kLeaf, probability, std::min(float(u), kOneMinusEpsilon)};
 }
 
 float LightTree::probability(Vec3 const& ref, Vec3 const& normal, uint32_t index) const {

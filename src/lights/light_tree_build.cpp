@@ -28,6 +28,35 @@ uint32_t bin_of(float x, float low, float high) {
     return std::min(uint32_t(float(kBins) * ((x - low) / (high - low))), kBins - 1);
 }
 
+/// Lights whose centres are in one part of an axis. A bound of their axes' cone takes a second
+/// pass.
+struct Bin {
+    Vec3 low{kInfinity}, high{-kInfinity}, axes{0, 0, 0};
+    float power = 0, theta_o = 0, theta_e = 0, least_cos = 1;
+    uint32_t count = 0;
+
+    void add(LightBounds const& b) {
+        for (int k = 0; k < 3; ++k) {
+            low[k] = std::min(low[k], b.low[k]);
+            high[k] = std::max(high[k], b.high[k]);
+        }
+        axes += b.axis;
+        power += b.power;
+        theta_o = std::max(theta_o, b.theta_o);
+        theta_e = std::max(theta_e, b.theta_e);
+        ++count;
+    }
+    void find_axis() {
+        float const l = length(axes);
+        axes = l > 1e-3f * float(count) ? axes * (1 / l) : Vec3(0, 0, 1);
+    }
+    LightBounds bounds() const {
+        float const theta = std::acos(std::clamp(least_cos, -1.f, 1.f)) + theta_o;
+        return {low, high, axes, std::min(theta, kPi), theta_e, power};
+    }
+};
+using Bins = std::array<Bin, kBins>;
+
 } // namespace
 
 /// Lights `begin` to `end` of an order that the build changes, and their bounds.
@@ -48,40 +77,64 @@ struct LightTree::Builder {
         return {begin, end, unite(std::span(lights).subspan(begin, end - begin))};
     }
 
-    void consider(Part const& p, int axis, float low, float high, float longest, Split& best) const;
+    std::array<Bins, 3> fill_bins(Part const& p, Vec3 const& low, Vec3 const& high) const;
+    Split best_split(Part const& p, Vec3 const& low, Vec3 const& high) const;
     std::array<Part, 2> cut(Part const& p, bool balanced);
     uint32_t partition(Part const& p, Split const& split, float low, float high);
     uint32_t build(Part const& p, uint32_t level, uint64_t trail);
     void set_child(Node& node, uint32_t k, LightBounds const& bounds) const;
 };
 
-/// The best cut between bins of the centres along `axis`, which span [low, high].
-void LightTree::Builder::consider(Part const& p, int axis, float low, float high, float longest,
-                                  Split& best) const {
-    std::array<LightBounds, kBins> bins;
-    std::array<uint32_t, kBins> counts{};
-    for (uint32_t i = p.begin; i < p.end; ++i) {
-        uint32_t const b = bin_of(lights[i].centre()[axis], low, high);
-        bins[b] = counts[b]++ ? unite(bins[b], lights[i]) : lights[i];
-    }
-    std::array<float, kBins> below{}; // cost of the bins before
-    LightBounds sum;
-    bool any = false;
-    auto add = [&](uint32_t b) {
-        if (counts[b]) sum = any ? unite(sum, bins[b]) : bins[b];
-        any |= counts[b] > 0;
+/// Along each axis on which the centres differ, from `low` to `high`.
+std::array<Bins, 3> LightTree::Builder::fill_bins(Part const& p, Vec3 const& low,
+                                                  Vec3 const& high) const {
+    std::array<Bins, 3> bins;
+    auto for_all = [&](auto&& f) {
+        for (uint32_t i = p.begin; i < p.end; ++i) {
+            Vec3 const centre = lights[i].centre();
+            for (int axis = 0; axis < 3; ++axis)
+                if (high[axis] > low[axis])
+                    f(bins[size_t(axis)][bin_of(centre[axis], low[axis], high[axis])], lights[i]);
+        }
     };
-    for (uint32_t b = 0; b + 1 < kBins; ++b) {
-        add(b);
-        below[b + 1] = cost(sum);
+    for_all([](Bin& bin, LightBounds const& light) { bin.add(light); });
+    for (Bins& of_axis : bins)
+        for (Bin& bin : of_axis) bin.find_axis();
+    for_all([](Bin& bin, LightBounds const& light) {
+        bin.least_cos = std::min(bin.least_cos, dot(bin.axes, light.axis));
+    });
+    return bins;
+}
+
+/// The best cut between bins of the centres.
+Split LightTree::Builder::best_split(Part const& p, Vec3 const& low, Vec3 const& high) const {
+    Split best;
+    auto const all = fill_bins(p, low, high);
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!(high[axis] > low[axis])) continue;
+        Bins const& bins = all[size_t(axis)];
+        std::array<float, kBins> below{}; // cost of the bins before
+        LightBounds sum;
+        float sum_cost = 0;
+        auto add = [&](uint32_t b) {
+            if (bins[b].count == 0) return;
+            sum = sum_cost > 0 ? unite(sum, bins[b].bounds()) : bins[b].bounds();
+            sum_cost = std::max(cost(sum), std::numeric_limits<float>::min());
+        };
+        for (uint32_t b = 0; b + 1 < kBins; ++b) {
+            add(b);
+            below[b + 1] = sum_cost;
+        }
+        sum_cost = 0;
+        float const regular = // long nodes are cut across
+            max_component(high - low) / (high[axis] - low[axis]);
+        for (uint32_t b = kBins - 1; b > 0; --b) {
+            add(b);
+            float const c = regular * (below[b] + sum_cost);
+            if (bins[b].count > 0 && c < best.cost) best = {c, axis, b};
+        }
     }
-    any = false;
-    float const regular = longest / (high - low); // long nodes are cut across
-    for (uint32_t b = kBins - 1; b > 0; --b) {
-        add(b);
-        float const c = regular * (below[b] + cost(sum));
-        if (c < best.cost) best = {c, axis, b};
-    }
+    return best;
 }
 
 uint32_t LightTree::Builder::partition(Part const& p, Split const& split, float low, float high) {
@@ -107,14 +160,12 @@ std::array<LightTree::Builder::Part, 2> LightTree::Builder::cut(Part const& p, b
     Vec3 low(kInfinity), high(-kInfinity);
     for (uint32_t i = p.begin; i < p.end; ++i)
         for (int axis = 0; axis < 3; ++axis) {
-            low[axis] = std::min(low[axis], lights[i].centre()[axis]);
-            high[axis] = std::max(high[axis], lights[i].centre()[axis]);
+            float const centre = lights[i].centre()[axis];
+            low[axis] = std::min(low[axis], centre);
+            high[axis] = std::max(high[axis], centre);
         }
-    float const longest = max_component(high - low);
     Split best;
-    if (!balanced && p.count() > 2)
-        for (int axis = 0; axis < 3; ++axis)
-            if (high[axis] > low[axis]) consider(p, axis, low[axis], high[axis], longest, best);
+    if (!balanced && p.count() > 2) best = best_split(p, low, high);
     uint32_t middle = p.begin + p.count() / 2; // where all are in one place
     if (best.axis >= 0) middle = partition(p, best, low[best.axis], high[best.axis]);
     return {part(p.begin, middle), part(middle, p.end)};

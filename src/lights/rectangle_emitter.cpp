@@ -10,13 +10,11 @@
 // With sin t_k = y_k / sqrt(y_k^2 + z^2), G(x) = phi is solved by
 //   (x / z)^2 = sin^2 phi / ((cos phi - cos(t1 - t0)) (cos phi + cos(t1 + t0))).
 #include "lights/emitter_geometry.h"
+#include "lights/spherical_triangle.h"
 
 namespace weft::lights {
 
 namespace {
-
-constexpr float kMinSolidAngle = 1e-6f; // below it, area and solid angle differ only by a smooth
-                                        // factor over the rectangle, unless it is seen edge-on
 
 struct Complex {
     double re, im;
@@ -38,10 +36,12 @@ std::array<double, 4> roots(std::array<double, 4> const& a) {
 } // namespace
 
 struct RectangleEmitter::View {
+    double corner_x, corner_y; ///< of uv (0, 0); the rest is of what is within reach
     double x0, x1, y0, y1, z;
     Complex start;     ///< exp(i G(x0)) times a length, x0^2 + z^2 times l
     float solid_angle; ///< G(x1) - G(x0)
 
+    float area() const { return float((x1 - x0) * (y1 - y0)); }
     /// The square of l = sqrt((y0^2 + z^2) (y1^2 + z^2)).
     double l2() const { return (y0 * y0 + z * z) * (y1 * y1 + z * z); }
     /// exp(i G(x)) times (x^2 + z^2) l; r0 and r1 are the distances to (x, y0) and (x, y1).
@@ -82,7 +82,28 @@ struct RectangleEmitter::View {
     }
 };
 
-RectangleEmitter::RectangleEmitter(Affine const& to_world) {
+/// The parts of a parallelogram on either side of its diagonal from uv (0, 0) to (1, 1).
+struct RectangleEmitter::Halves {
+    SphericalTriangle lower, upper; ///< with (1, 0); with (0, 1)
+
+    float solid_angle() const { return lower.solid_angle() + upper.solid_angle(); }
+    Vec2 sample(Vec2 u) const {
+        float const share = lower.solid_angle() / solid_angle();
+        if (u.x < share) {
+            Vec2 const b = lower.sample({u.x / share, u.y});
+            return {std::min(b.x + b.y, 1.f), b.y};
+        }
+        Vec2 const b = upper.sample({std::min((u.x - share) / (1 - share), 1.f), u.y});
+        return {b.x, std::min(b.x + b.y, 1.f)};
+    }
+};
+
+RectangleEmitter::Halves RectangleEmitter::halves(Vec3d const& to_corner) const {
+    Vec3d const diagonal = edge_x_ + edge_y_;
+    return {{to_corner, edge_x_, diagonal}, {to_corner, diagonal, edge_y_}};
+}
+
+RectangleEmitter::RectangleEmitter(Affine const& to_world, float reach) : reach_(double(reach)) {
     Affined const m(to_world);
     corner_ = m.origin - m.x - m.y;
     edge_x_ = m.x * 2.0;
@@ -109,11 +130,22 @@ Box RectangleEmitter::box() const {
 
 RectangleEmitter::View RectangleEmitter::view(Vec3d const& to_corner) const {
     View v;
-    v.x0 = dot(to_corner, axis_x_);
-    v.y0 = dot(to_corner, axis_y_);
+    v.x0 = v.corner_x = dot(to_corner, axis_x_);
+    v.y0 = v.corner_y = dot(to_corner, axis_y_);
     v.z = std::abs(dot(to_corner, normal_));
     v.x1 = v.x0 + length_x_;
     v.y1 = v.y0 + length_y_;
+    if (reach_ < std::numeric_limits<double>::infinity()) {
+        double const reach = reach_ * v.z;
+        v.x0 = std::max(v.x0, -reach);
+        v.y0 = std::max(v.y0, -reach);
+        v.x1 = std::min(v.x1, reach);
+        v.y1 = std::min(v.y1, reach);
+        if (!(v.x0 < v.x1 && v.y0 < v.y1)) {
+            v.x1 = v.x0;
+            v.y1 = v.y0;
+        }
+    }
     double const z2 = v.z * v.z, dx0 = v.x0 * v.x0 + z2, dx1 = v.x1 * v.x1 + z2, yy0 = v.y0 * v.y0,
                  yy1 = v.y1 * v.y1;
     auto const r = roots({dx0 + yy0, dx0 + yy1, dx1 + yy0, dx1 + yy1});
@@ -127,11 +159,11 @@ RectangleEmitter::View RectangleEmitter::view(Vec3d const& to_corner) const {
 }
 
 float RectangleEmitter::solid_angle(Vec3 const& ref) const {
-    if (!is_rectangle_) return std::numeric_limits<float>::quiet_NaN();
-    return view(corner_ - Vec3d(ref)).solid_angle;
+    Vec3d const to_corner = corner_ - Vec3d(ref);
+    return is_rectangle_ ? view(to_corner).solid_angle : halves(to_corner).solid_angle();
 }
 
-EmitterSample RectangleEmitter::at(Vec3 const& ref, Vec2 uv) const {
+EmitterSample RectangleEmitter::at_uv(Vec3 const& ref, Vec2 uv) const {
     EmitterSample s;
     s.p = Vec3(corner_ + edge_x_ * double(uv.x) + edge_y_ * double(uv.y));
     s.n = Vec3(normal_);
@@ -143,34 +175,49 @@ EmitterSample RectangleEmitter::at(Vec3 const& ref, Vec2 uv) const {
 }
 
 /// d^2 / (A cos) with the cosine by the distance to the plane, exact also at grazing angles.
-float RectangleEmitter::area_pdf(Vec3 const& ref, Vec3 const& p) const {
+float RectangleEmitter::area_pdf(Vec3 const& ref, Vec3 const& p, float area) const {
     double const z = std::abs(dot(corner_ - Vec3d(ref), normal_));
     float const d = length(p - ref);
-    float const cosine_by = area_ * float(z);
+    float const cosine_by = area * float(z);
     return cosine_by > 0 ? d * d * (d / cosine_by) : 0;
 }
 
-EmitterSample RectangleEmitter::sample(Vec3 const& ref, Vec2 u) const {
+EmitterSample RectangleEmitter::sample(Vec3 const& ref, Vec2 u, uint32_t) const {
+    Vec3d const to_corner = corner_ - Vec3d(ref);
+    float solid_angle, area = area_;
+    Vec2 uv = u;
     if (is_rectangle_) {
-        View const v = view(corner_ - Vec3d(ref));
-        if (v.solid_angle >= kMinSolidAngle) {
-            double const x = v.abscissa(u.x), y = v.ordinate(x, u.y);
-            EmitterSample s = at(ref, {float((x - v.x0) * per_x_), float((y - v.y0) * per_y_)});
-            s.pdf = s.distance > 0 ? 1 / v.solid_angle : 0;
-            return s;
-        }
+        View const v = view(to_corner);
+        solid_angle = v.solid_angle;
+        area = v.area();
+        bool const by_area = !(solid_angle >= kMinSolidAngle);
+        double const x = by_area ? v.x0 + double(u.x) * (v.x1 - v.x0) : v.abscissa(u.x);
+        double const y = by_area ? v.y0 + double(u.y) * (v.y1 - v.y0) : v.ordinate(x, u.y);
+        uv = {float((x - v.corner_x) * per_x_), float((y - v.corner_y) * per_y_)};
+    } else {
+        Halves const h = halves(to_corner);
+        solid_angle = h.solid_angle();
+        if (solid_angle >= kMinSolidAngle) uv = h.sample(u);
     }
-    EmitterSample s = at(ref, u);
-    s.pdf = area_pdf(ref, s.p);
+    EmitterSample s = at_uv(ref, uv);
+    if (!(solid_angle >= kMinSolidAngle))
+        s.pdf = area_pdf(ref, s.p, area);
+    else
+        s.pdf = s.distance > 0 ? 1 / solid_angle : 0;
     return s;
 }
 
 float RectangleEmitter::pdf(Vec3 const& ref, Vec3 const& p, Vec3 const&, uint32_t) const {
+    Vec3d const to_corner = corner_ - Vec3d(ref);
+    float omega, area = area_;
     if (is_rectangle_) {
-        float const omega = view(corner_ - Vec3d(ref)).solid_angle;
-        if (omega >= kMinSolidAngle) return 1 / omega;
+        View const v = view(to_corner);
+        omega = v.solid_angle;
+        area = v.area();
+    } else {
+        omega = halves(to_corner).solid_angle();
     }
-    return area_pdf(ref, p);
+    return omega >= kMinSolidAngle ? 1 / omega : area_pdf(ref, p, area);
 }
 
 } // namespace weft::lights

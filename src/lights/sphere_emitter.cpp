@@ -101,20 +101,38 @@ Vec3 point_from_inside(Vec3d const& ref, double beyond, Vec2 u) {
 
 } // namespace
 
-EmitterSample SphereEmitter::sample(Vec3 const& ref, Vec2 u) const {
+/// The point of direction `local` from the centre; without a density.
+EmitterSample SphereEmitter::at(Vec3 const& ref, Vec3 const& local) const {
     EmitterSample s;
-    if (inverse_determinant_ == 0) return s;
-    View const v = view(ref);
-    Vec3 const local = v.beyond > 0 ? point_from_outside(v.ref, v.beyond, v.one_minus_cos, u)
-                                    : point_from_inside(v.ref, v.beyond, u);
     s.p = to_world_.point(local);
     s.n = normalize(to_local_.transposed(local));
     s.uv = direction_to_uv(local);
     Vec3 const d = s.p - ref;
     s.distance = length(d);
-    if (!(s.distance > 0)) return s;
-    s.wi = d * (1 / s.distance);
-    s.pdf = direction_pdf(v, s.wi);
+    if (s.distance > 0) s.wi = d * (1 / s.distance);
+    return s;
+}
+
+EmitterSample SphereEmitter::at_uv(Vec3 const& ref, Vec2 uv) const {
+    if (inverse_determinant_ == 0) return {};
+    EmitterSample s = at(ref, uv_to_direction(uv));
+    s.uv = uv;
+    return s;
+}
+
+/// A unit of area with normal n becomes |det A| |A^-T n|; of the uv square it is 2 pi^2 sin theta.
+float SphereEmitter::area_by_uv(Vec2 uv) const {
+    if (inverse_determinant_ == 0) return 0;
+    return length(to_local_.transposed(uv_to_direction(uv))) / inverse_determinant_ * 2 * kPi *
+           kPi * std::sin(uv.y * kPi);
+}
+
+EmitterSample SphereEmitter::sample(Vec3 const& ref, Vec2 u, uint32_t) const {
+    if (inverse_determinant_ == 0) return {};
+    View const v = view(ref);
+    EmitterSample s = at(ref, v.beyond > 0 ? point_from_outside(v.ref, v.beyond, v.one_minus_cos, u)
+                                           : point_from_inside(v.ref, v.beyond, u));
+    if (s.distance > 0) s.pdf = direction_pdf(v, s.wi);
     return s;
 }
 

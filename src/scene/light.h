@@ -83,12 +83,27 @@ struct AreaLight {
                                                "An emissive instance that is sampled as a light. "
                                                "It is part of the scene: do not list it again."};
     InstanceId instance;
+    float power = 0;
+    float spread = 180;
     LightControls controls;
 
     template <class F>
     constexpr void describe(F&& f) {
         f("instance", instance,
           {.required = true, .help = "The instance; it carries an emission."});
+        f("power", power,
+          {.unit = "W",
+           .min = 0,
+           .help = "Radiant flux of the whole surface: the emission then says only its colour and "
+                   "pattern, and is scaled so that the luminance of what leaves is that of a white "
+                   "light of this power. 0: the emission is the radiance."});
+        f("spread", spread,
+          {.unit = "deg",
+           .min = 0.1,
+           .max = 180,
+           .help = "Full angle into which each point shines, as through the grid of a soft box: "
+                   "smaller is narrower and as much brighter, since the power stays. 180 shines "
+                   "like paper (Lambertian)."});
         f.group(controls);
     }
 };

@@ -29,6 +29,17 @@ struct Rectangle {
     constexpr void describe(F&&) {}
 };
 
+struct Disk {
+    static constexpr schema::TypeInfo info{
+        .category = "shape",
+        .type = "disk",
+        .help = "The disk of radius 1 around the origin in the plane z = 0; its normal is +z. uv "
+                "is that of a rectangle around it: 0.5 at the centre, 0 to 1 across."};
+
+    template <class F>
+    constexpr void describe(F&&) {}
+};
+
 struct MeshShape {
     static constexpr schema::TypeInfo info{.category = "shape",
                                            .type = "mesh",
@@ -66,7 +77,7 @@ struct Group {
     }
 };
 
-using Shape = std::variant<Sphere, Rectangle, MeshShape, Group>;
+using Shape = std::variant<Sphere, Rectangle, Disk, MeshShape, Group>;
 
 /// Which rays meet an instance, by how they came about.
 struct RayVisibility {

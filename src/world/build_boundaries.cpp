@@ -36,6 +36,12 @@ void enclose_sphere(Affined const& m, Enclosed& e) {
     e.volume = 4 * std::numbers::pi / 3 * std::abs(m.determinant());
 }
 
+void enclose_disk(Affined const& m, Enclosed& e) {
+    for (double x : {-1.0, 1.0})
+        for (double y : {-1.0, 1.0}) e.grow(m.point({x, y, 0}));
+    e.closed = false;
+}
+
 /// The divergence theorem: of a closed surface the sum of areas as vectors is 0, and that of
 /// p . area / 3 is the volume.
 void enclose_mesh(TriangleData const& data, Affined const& m, Enclosed& e) {
@@ -70,6 +76,8 @@ void WorldBuilder::rank_boundaries() {
         e.object = i;
         if (o.kind == ObjectKind::Sphere)
             enclose_sphere(Affined(o.to_world), e);
+        else if (o.kind == ObjectKind::Disk)
+            enclose_disk(Affined(o.to_world), e);
         else
             enclose_mesh(world_.triangles_[size_t(o.triangles)],
                          o.instanced ? Affined(o.to_world) : Affined(), e);

@@ -76,7 +76,7 @@ void WorldBuilder::link_lights(LightList& list) {
     for (size_t i = 0; i < list.lights.size(); ++i) {
         Light& light = list.lights[i];
         LightRules& rules = light.rules;
-        SourceLocation const& where = list.locations[i];
+        SourceLocation const& where = scene_.light_locations[size_t(light.source)];
         rules.lit = sets_.find(light.controls.illuminates, "illuminates", where);
         if (Links const by = sets_.find(light.controls.shadowed_by, "shadowedBy", where))
             if (rules.shadow_mask != 0) rules.shadow_mask = shadow_mask(by);

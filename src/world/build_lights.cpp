@@ -4,14 +4,6 @@
 
 namespace weft::world {
 
-void LightList::add(LightKind kind, lights::LightBounds where_it_is, float power,
-                    scene::LightControls const& controls) {
-    where_it_is.power = controls.weight * power;
-    lights.push_back({std::move(kind), controls, {controls, where_it_is, power, cross_section}});
-    bounds.push_back(where_it_is);
-    locations.push_back(where);
-}
-
 void WorldBuilder::add_light(scene::PointLight const& light, SourceLocation const&,
                              LightList& list) {
     lights::PointLight const point{light.position, light.power / (4 * kPi)};
@@ -40,18 +32,19 @@ void WorldBuilder::build_lights() {
 
     LightList list;
     list.cross_section = kPi * square(std::max(radius, 1e-6f));
-    for (scene::LightId id : scene_.contents.lights)
+    for (scene::LightId id : scene_.contents.lights) {
+        list.source = id.index;
         std::visit(Overloaded{
                        [&](auto const& light) {
-                           list.where = scene_.light_locations[size_t(id.index)];
-                           add_light(light, list.where, list);
+                           add_light(light, scene_.light_locations[size_t(id.index)], list);
                        },
                        [](scene::AreaLight const&) {}, // by the objects that it lets shine
                    },
                    scene_.lights[size_t(id.index)]);
+    }
     add_area_lights(list);
     link_lights(list);
-    world_.lights_ = LightTable(std::move(list.lights), list.bounds, world_);
+    world_.lights_ = LightTable(std::move(list), world_);
 }
 
 } // namespace weft::world

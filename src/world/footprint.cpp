@@ -38,6 +38,8 @@ shading::UvFootprint World::uv_footprint(Object const& object, RayCone const& co
     bool local = true;
     if (object.kind == ObjectKind::Sphere) {
         g = sphere_gradients(normalize(object.to_object.point(point.p)));
+    } else if (object.kind == ObjectKind::Disk) {
+        g = {Vec3(0.5f, 0, 0), Vec3(0, 0.5f, 0)};
     } else {
         TriangleData const& data = triangles_[size_t(object.triangles)];
         auto const& v = data.source->triangles[point.primitive].v;

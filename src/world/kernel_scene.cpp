@@ -33,9 +33,27 @@ uint32_t hit_object(RTCFilterFunctionNArguments const* args) {
     return instance != RTC_INVALID_GEOMETRY_ID ? instance : RTCHitN_geomID(args->hit, 1, 0);
 }
 
-Hit to_hit(RTCFilterFunctionNArguments const* args) {
-    return {RTCRayN_tfar(args->ray, 1, 0), hit_object(args), RTCHitN_primID(args->hit, 1, 0),
+Vec3 ray_direction(RTCFilterFunctionNArguments const* args) {
+    return {RTCRayN_dir_x(args->ray, 1, 0), RTCRayN_dir_y(args->ray, 1, 0),
+            RTCRayN_dir_z(args->ray, 1, 0)};
+}
+
+/// The kernel knows no place on a disk. `p` is the hit in the space that the kernel has it in.
+void place_on_disk(Object const& disk, Vec3 const& p, Hit& hit) {
+    Vec3 const local = disk.instanced ? p : disk.to_object.point(p);
+    hit.u = local.x;
+    hit.v = local.y;
+}
+
+Hit to_hit(World const& world, RTCFilterFunctionNArguments const* args) {
+    Hit hit{RTCRayN_tfar(args->ray, 1, 0), hit_object(args), RTCHitN_primID(args->hit, 1, 0),
             RTCHitN_u(args->hit, 1, 0), RTCHitN_v(args->hit, 1, 0)};
+    if (Object const& o = world.object(hit.object); o.kind == ObjectKind::Disk) {
+        Vec3 const origin(RTCRayN_org_x(args->ray, 1, 0), RTCRayN_org_y(args->ray, 1, 0),
+                          RTCRayN_org_z(args->ray, 1, 0));
+        place_on_disk(o, origin + ray_direction(args) * hit.t, hit);
+    }
+    return hit;
 }
 
 Vec3 hit_normal(RTCFilterFunctionNArguments const* args) {
@@ -43,17 +61,12 @@ Vec3 hit_normal(RTCFilterFunctionNArguments const* args) {
             RTCHitN_Ng_z(args->hit, 1, 0)};
 }
 
-Vec3 ray_direction(RTCFilterFunctionNArguments const* args) {
-    return {RTCRayN_dir_x(args->ray, 1, 0), RTCRayN_dir_y(args->ray, 1, 0),
-            RTCRayN_dir_z(args->ray, 1, 0)};
-}
-
 /// Closest hit: a surface is there with the probability of its opacity. The decision is a hash of
 /// the surface, so it is the same however often and in which order the kernel asks.
 void filter_closest(RTCFilterFunctionNArguments const* args) {
     auto& context = *reinterpret_cast<FilterContext*>(args->context);
     if (args->valid[0] == 0) return;
-    Hit const hit = to_hit(args);
+    Hit const hit = to_hit(*context.world, args);
     Object const& o = context.world->object(hit.object);
     if (context.passable_only && !o.is_passable()) args->valid[0] = 0;
     if (args->valid[0] == 0 || !o.has_alpha) return;
@@ -78,7 +91,7 @@ void filter_closest(RTCFilterFunctionNArguments const* args) {
 void filter_shadow(RTCFilterFunctionNArguments const* args) {
     auto& context = *reinterpret_cast<FilterContext*>(args->context);
     if (args->valid[0] == 0) return;
-    Hit const hit = to_hit(args);
+    Hit const hit = to_hit(*context.world, args);
     Object const& o = context.world->object(hit.object);
     Corners const corners = o.kind == ObjectKind::Mesh ? corners_at(hit) : kAllCorners;
     if (!o.is_passable() && !context.repeated(hit, corners)) {
@@ -134,6 +147,23 @@ RTCGeometry WorldBuilder::make_sphere(Vec3 const& centre, float radius) const {
     return geometry;
 }
 
+RTCGeometry WorldBuilder::make_disk(Affine const& to_world) const {
+    RTCGeometry const geometry =
+        rtcNewGeometry(world_.device_, RTC_GEOMETRY_TYPE_ORIENTED_DISC_POINT);
+    auto* data = static_cast<float*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, 16, 1));
+    auto* normal = static_cast<float*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_NORMAL, 0, RTC_FORMAT_FLOAT3, 12, 1));
+    Vec3 const n = normalize(Vec3(cross(Vec3d(to_world.x), Vec3d(to_world.y)))) *
+                   (to_world.determinant() < 0 ? -1.f : 1.f);
+    for (int i = 0; i < 3; ++i) {
+        data[i] = to_world.origin[i];
+        normal[i] = n[i];
+    }
+    data[3] = length(to_world.x);
+    return geometry;
+}
+
 void WorldBuilder::attach(RTCScene to, RTCGeometry geometry, uint32_t id, bool filtered,
                           RayMask mask) {
     rtcSetGeometryMask(geometry, mask);
@@ -147,14 +177,16 @@ void WorldBuilder::attach(RTCScene to, RTCGeometry geometry, uint32_t id, bool f
 }
 
 RTCScene WorldBuilder::instanced_scene(Object const& object) {
-    RTCScene& scene =
-        object.kind == ObjectKind::Sphere ? sphere_scene_ : mesh_scenes_[object.triangles];
+    RTCScene& scene = object.kind == ObjectKind::Sphere ? sphere_scene_
+                      : object.kind == ObjectKind::Disk ? disk_scene_
+                                                        : mesh_scenes_[object.triangles];
     if (scene) return scene;
     scene = rtcNewScene(world_.device_);
     world_.instanced_scenes_.push_back(scene);
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-    RTCGeometry const geometry = object.kind == ObjectKind::Sphere
-                                     ? make_sphere(Vec3(0), 1)
+    RTCGeometry const geometry = object.kind == ObjectKind::Sphere ? make_sphere(Vec3(0), 1)
+                                 : object.kind == ObjectKind::Disk
+                                     ? make_disk(Affine())
                                      : make_mesh(world_.triangles_[size_t(object.triangles)]);
     // The instances share these filters: those without opacity answer 1.
     bool filtered = false;
@@ -185,6 +217,8 @@ void WorldBuilder::build_kernel_scene() {
         } else if (o.kind == ObjectKind::Sphere) {
             attach(world_.embree_scene_, make_sphere(o.to_world.origin, length(o.to_world.x)), id,
                    o.needs_filter(), o.ray_mask);
+        } else if (o.kind == ObjectKind::Disk) {
+            attach(world_.embree_scene_, make_disk(o.to_world), id, o.needs_filter(), o.ray_mask);
         } else {
             attach(world_.embree_scene_, make_mesh(world_.triangles_[size_t(o.triangles)]), id,
                    o.needs_filter(), o.ray_mask);
@@ -220,8 +254,13 @@ Hit World::closest(Ray const& ray, Target target, uint32_t alpha_seed) const {
     embree_intersect(embree_scene_, &context.query, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
     bool const instanced = query.hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
-    return {query.ray.tfar, instanced ? query.hit.instID[0] : query.hit.geomID, query.hit.primID,
+    Hit hit{query.ray.tfar, instanced ? query.hit.instID[0] : query.hit.geomID, query.hit.primID,
             query.hit.u, query.hit.v};
+    if (Object const& o = objects_[hit.object]; o.kind == ObjectKind::Disk) {
+        Vec3 const p = ray.origin + ray.direction * hit.t;
+        place_on_disk(o, instanced ? o.to_object.point(p) : p, hit);
+    }
+    return hit;
 }
 
 Color World::visibility(Ray const& ray, bool secondary) const {

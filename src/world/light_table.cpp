@@ -1,16 +1,42 @@
 #include "world/light_table.h"
 
+#include <bit>
+
+#include "base/hash.h"
 #include "world/world.h"
 
 namespace weft::world {
 
-LightTable::LightTable(std::vector<Light> lights, std::span<lights::LightBounds const> bounds,
-                       World const& world)
-    : lights_(std::move(lights)), tree_(bounds), world_(&world), textures_(&world.textures()) {
-    for (size_t i = 0; i < lights_.size(); ++i)
+void LightList::add(LightKind kind, std::span<lights::LightBounds const> leaves,
+                    scene::LightControls const& controls) {
+    lights::LightBounds const all = leaves.empty() ? lights::LightBounds() : lights::unite(leaves);
+    lights.push_back(
+        {std::move(kind), controls, {controls, all, all.power, cross_section}, source, all.power});
+    first_leaf.push_back(uint32_t(bounds.size()));
+    for (lights::LightBounds const& leaf : leaves) {
+        bounds.push_back(leaf);
+        bounds.back().power *= controls.weight;
+    }
+}
+
+LightTable::LightTable(LightList list, World const& world)
+    : lights_(std::move(list.lights)), first_leaf_(std::move(list.first_leaf)), tree_(list.bounds),
+      world_(&world), textures_(&world.textures()) {
+    size_t const leaves = list.bounds.size();
+    if (leaves != lights_.size()) light_of_leaf_.resize(leaves);
+    for (size_t i = 0; i < lights_.size(); ++i) {
+        size_t const end = i + 1 < lights_.size() ? first_leaf_[i + 1] : leaves;
+        if (!light_of_leaf_.empty())
+            std::fill(light_of_leaf_.begin() + first_leaf_[i],
+                      light_of_leaf_.begin() + int64_t(end), uint32_t(i));
         if (std::holds_alternative<EnvironmentLight>(lights_[i].kind) ||
             std::holds_alternative<lights::SunDisk>(lights_[i].kind))
             environments_.push_back(int32_t(i));
+    }
+}
+
+size_t LightTable::memory_bytes() const {
+    return tree_.memory_bytes() + light_of_leaf_.size() * sizeof(uint32_t);
 }
 
 namespace {
@@ -39,22 +65,30 @@ LightSample from_infinity(Sample const& s) {
 
 } // namespace
 
-LightSample LightTable::sample_light(lights::PointLight const& l, Vec3 const& ref, Vec2) const {
+LightSample LightTable::sample_light(lights::PointLight const& l, Vec3 const& ref, Vec2,
+                                     uint32_t) const {
     return from_delta(l.sample(ref));
 }
-LightSample LightTable::sample_light(lights::DirectionalLight const& l, Vec3 const& ref,
-                                     Vec2) const {
+LightSample LightTable::sample_light(lights::DirectionalLight const& l, Vec3 const& ref, Vec2,
+                                     uint32_t) const {
     return from_delta(l.sample(ref));
 }
-LightSample LightTable::sample_light(lights::SpotLight const& l, Vec3 const& ref, Vec2) const {
+LightSample LightTable::sample_light(lights::SpotLight const& l, Vec3 const& ref, Vec2,
+                                     uint32_t) const {
     return from_delta(l.sample(ref));
 }
 
-LightSample LightTable::sample_light(AreaLight const& l, Vec3 const& ref, Vec2 u) const {
-    lights::EmitterSample const s =
-        match(l.emitter, [&](auto const& e) { return e.sample(ref, u); });
+LightSample LightTable::sample_light(AreaLight const& l, Vec3 const& ref, Vec2 u,
+                                     uint32_t part) const {
+    lights::EmitterSample const s = match(l.emitter, [&](auto const& e) {
+        if constexpr (requires { e.at_uv(ref, u); })
+            if (l.texture) return l.texture->sample(e, ref, u);
+        return e.sample(ref, u, part);
+    });
     LightSample sample;
     if (!(s.pdf > 0) || dot(s.n, s.wi) >= 0) return sample; // nothing, or its back
+    float const towards = l.spread.factor(s.n, -s.wi);
+    if (towards == 0) return sample;
     sample.wi = s.wi;
     sample.distance = s.distance;
     if (l.uv_alone) {
@@ -65,6 +99,7 @@ LightSample LightTable::sample_light(AreaLight const& l, Vec3 const& ref, Vec2 u
         sample.radiance =
             textures_->radiance(l.emission, point) * textures_->opacity(l.opacity, point);
     }
+    sample.radiance *= towards;
     sample.pdf = s.pdf;
     sample.object = int32_t(l.object);
     // As far off the light as a ray that leaves it would start.
@@ -74,7 +109,8 @@ LightSample LightTable::sample_light(AreaLight const& l, Vec3 const& ref, Vec2 u
     return sample;
 }
 
-LightSample LightTable::sample_light(EnvironmentLight const& l, Vec3 const& ref, Vec2 u) const {
+LightSample LightTable::sample_light(EnvironmentLight const& l, Vec3 const& ref, Vec2 u,
+                                     uint32_t) const {
     return from_infinity(l.sample(*textures_, ref, u));
 }
 
@@ -84,7 +120,7 @@ LightTable::Found LightTable::found_at(EnvironmentLight const& l, Vec3 const& re
     return {s.radiance, s.pdf};
 }
 
-LightSample LightTable::sample_light(lights::SunDisk const& l, Vec3 const&, Vec2 u) const {
+LightSample LightTable::sample_light(lights::SunDisk const& l, Vec3 const&, Vec2 u, uint32_t) const {
     return from_infinity(l.sample(u));
 }
 
@@ -92,25 +128,41 @@ LightTable::Found LightTable::found_at(lights::SunDisk const& l, Vec3 const&, Ve
     return {l.radiance(d), l.pdf(d)};
 }
 
+namespace {
+
+/// The third random number has 24 digits, of which a million leaves take 20. The others say how it
+/// goes on.
+double with_more_digits(Vec3 const& u) {
+    uint32_t const rest = hash_combine(std::bit_cast<uint32_t>(u.x), std::bit_cast<uint32_t>(u.y));
+    return double(u.z) + double(rest) * 0x1p-56;
+}
+
+} // namespace
+
 LightSample LightTable::sample(Vec3 const& ref, Vec3 const& n, Vec3 const& u) const {
-    auto const choice = tree_.choose(ref, n, u.z);
+    auto const choice = tree_.choose(ref, n, with_more_digits(u));
     if (!(choice.probability > 0)) return {};
-    LightSample sample = match(lights_[choice.index].kind, [&](auto const& l) {
-        return sample_light(l, ref, {u.x, u.y});
+    uint32_t const light = light_of_leaf_.empty() ? choice.index : light_of_leaf_[choice.index];
+    LightSample sample = match(lights_[light].kind, [&](auto const& l) {
+        return sample_light(l, ref, {u.x, u.y}, choice.index - first_leaf_[light]);
     });
     sample.pdf *= choice.probability;
-    sample.light = int32_t(choice.index);
+    sample.light = int32_t(light);
     return sample;
 }
 
 float LightTable::pdf(int32_t light, Vec3 const& ref, Vec3 const& n,
                       shading::SurfacePoint const& point) const {
     auto const& area = std::get<AreaLight>(lights_[size_t(light)].kind);
-    float const choice = tree_.probability(ref, n, uint32_t(light));
-    if (choice == 0) return 0;
-    return choice * match(area.emitter, [&](auto const& e) {
-               return e.pdf(ref, point.p, point.ng, point.primitive);
-           });
+    return match(area.emitter, [&](auto const& e) {
+        uint32_t const part = e.primitives() > 1 ? point.primitive : 0;
+        float const choice = tree_.probability(ref, n, first_leaf_[size_t(light)] + part);
+        if (choice == 0) return 0.f;
+        if constexpr (requires { e.at_uv(ref, point.uv); })
+            if (area.texture)
+                return choice * area.texture->pdf(e, ref, point.p, point.ng, point.uv);
+        return choice * e.pdf(ref, point.p, point.ng, part);
+    });
 }
 
 } // namespace weft::world

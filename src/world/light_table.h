@@ -1,13 +1,16 @@
 // All lights of a world, and how one is chosen and sampled.
 #pragma once
 
+#include <optional>
 #include <variant>
 #include <vector>
 
 #include "base/match.h"
 #include "lights/delta_lights.h"
 #include "lights/emitter_geometry.h"
+#include "lights/emitter_texture.h"
 #include "lights/light_tree.h"
+#include "lights/spread.h"
 #include "lights/sun_disk.h"
 #include "scene/scene.h"
 #include "shading/textures.h"
@@ -24,9 +27,11 @@ struct AreaLight {
     lights::Emitter emitter;
     shading::Emission emission;
     shading::Opacity opacity; ///< rays that look for it miss it where it is not there
-    float extent = 0;         ///< about its size: the root of its area
-    uint32_t object = 0;      ///< of the world
-    bool uv_alone = true;     ///< emission and alpha depend on uv alone
+    lights::Spread spread;
+    std::optional<lights::EmitterTexture> texture; ///< where the emission varies much
+    float extent = 0;                              ///< about its size: the root of its area
+    uint32_t object = 0;                           ///< of the world
+    bool uv_alone = true;                          ///< emission and alpha depend on uv alone
 };
 
 using LightKind = std::variant<lights::PointLight, lights::DirectionalLight, lights::SpotLight,
@@ -36,6 +41,8 @@ struct Light {
     LightKind kind;
     scene::LightControls controls;
     LightRules rules;
+    int32_t source = -1; ///< of the scene's lights, for messages
+    float power = 0;     ///< luminance of all that it emits
 };
 
 struct LightSample {
@@ -49,13 +56,31 @@ struct LightSample {
     int32_t object = -1; ///< whose surface it is; -1: none
 };
 
+/// The lights while they are collected, and the leaves that the light tree is to have: one for
+/// each light, but for meshes one for each triangle.
+struct LightList {
+    std::vector<Light> lights;
+    std::vector<lights::LightBounds> bounds; ///< per leaf
+    std::vector<uint32_t> first_leaf;        ///< per light
+    float cross_section = 1; ///< of the scene, for the power of what shines from infinity
+    int32_t source = -1;     ///< which of the scene's lights the next ones are
+
+    /// `leaves`: their powers are the luminance of what each emits in all.
+    void add(LightKind kind, std::span<lights::LightBounds const> leaves,
+             scene::LightControls const& controls);
+    /// A light of one leaf.
+    void add(LightKind kind, lights::LightBounds where, float power,
+             scene::LightControls const& controls) {
+        where.power = power;
+        add(std::move(kind), std::span(&where, 1), controls);
+    }
+};
+
 class LightTable {
   public:
     LightTable() = default;
-    /// `bounds`: one per light, its power times the user's weight.
     /// `world`: whose lights they are; outlives the table.
-    LightTable(std::vector<Light> lights, std::span<lights::LightBounds const> bounds,
-               World const& world);
+    LightTable(LightList list, World const& world);
 
     size_t size() const { return lights_.size(); }
     Light const& operator[](int32_t i) const { return lights_[size_t(i)]; }
@@ -75,9 +100,13 @@ class LightTable {
         for (int32_t i : environments_) {
             Found const found = match(lights_[size_t(i)].kind,
                                       [&](auto const& light) { return found_at(light, ref, d); });
-            f(i, found.radiance, tree_.probability(ref, n, uint32_t(i)) * found.pdf);
+            f(i, found.radiance,
+              tree_.probability(ref, n, first_leaf_[size_t(i)]) * found.pdf);
         }
     }
+
+    /// What choosing among the lights takes, in bytes.
+    size_t memory_bytes() const;
 
   private:
     /// What a ray that leaves the scene finds of a light.
@@ -91,15 +120,18 @@ class LightTable {
     Found found_at(Other const&, Vec3 const&, Vec3 const&) const {
         return {};
     }
-    LightSample sample_light(lights::PointLight const& l, Vec3 const& ref, Vec2 u) const;
-    LightSample sample_light(lights::DirectionalLight const& l, Vec3 const& ref, Vec2 u) const;
-    LightSample sample_light(lights::SpotLight const& l, Vec3 const& ref, Vec2 u) const;
-    LightSample sample_light(AreaLight const& l, Vec3 const& ref, Vec2 u) const;
-    LightSample sample_light(EnvironmentLight const& l, Vec3 const& ref, Vec2 u) const;
-    LightSample sample_light(lights::SunDisk const& l, Vec3 const& ref, Vec2 u) const;
+    LightSample sample_light(lights::PointLight const&, Vec3 const& ref, Vec2, uint32_t) const;
+    LightSample sample_light(lights::DirectionalLight const&, Vec3 const& ref, Vec2,
+                             uint32_t) const;
+    LightSample sample_light(lights::SpotLight const&, Vec3 const& ref, Vec2, uint32_t) const;
+    LightSample sample_light(AreaLight const&, Vec3 const& ref, Vec2 u, uint32_t part) const;
+    LightSample sample_light(EnvironmentLight const&, Vec3 const& ref, Vec2 u, uint32_t) const;
+    LightSample sample_light(lights::SunDisk const&, Vec3 const&, Vec2 u, uint32_t) const;
 
     std::vector<Light> lights_;
-    std::vector<int32_t> environments_; ///< lights that rays meet infinitely far away
+    std::vector<uint32_t> first_leaf_;    ///< of the tree, per light
+    std::vector<uint32_t> light_of_leaf_; ///< empty where each light has one leaf
+    std::vector<int32_t> environments_;   ///< lights that rays meet infinitely far away
     lights::LightTree tree_;
     World const* world_ = nullptr;
     shading::Textures const* textures_ = nullptr; ///< of the world

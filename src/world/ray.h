@@ -26,7 +26,7 @@ struct Hit {
     float t = kInfinity;
     uint32_t object = UINT32_MAX; ///< UINT32_MAX: nothing was hit
     uint32_t primitive = 0;
-    float u = 0, v = 0; ///< barycentric coordinates of vertices 1 and 2
+    float u = 0, v = 0; ///< barycentric coordinates of vertices 1 and 2; x and y of a disk's own
     explicit operator bool() const { return object != UINT32_MAX; }
 };
 

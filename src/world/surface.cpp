@@ -20,6 +20,8 @@ Vec2 uv_at(Vertex const& a, Vertex const& b, Vertex const& c, Hit const& hit) {
     return {a.u * w + b.u * hit.u + c.u * hit.v, a.v * w + b.v * hit.u + c.v * hit.v};
 }
 
+Vec2 disk_uv(Hit const& hit) { return {0.5f * (hit.u + 1), 0.5f * (hit.v + 1)}; }
+
 } // namespace
 
 shading::SurfacePoint World::surface(Ray const& ray, Hit const& hit) const {
@@ -42,6 +44,8 @@ shading::SurfacePoint World::point_on(Hit const& hit, Vec3 const& local, Vec3 co
     point.to_object = &object.to_object;
     if (object.kind == ObjectKind::Sphere)
         sphere_point(object, normalize(local), point); // what t has lost does not matter then
+    else if (object.kind == ObjectKind::Disk)
+        disk_point(object, hit, point);
     else
         mesh_point(object, hit, point);
     // Shadow rays, which have no cone, are to see the same holes.
@@ -54,8 +58,9 @@ shading::SurfacePoint World::point_on(Hit const& hit, Vec3 const& local, Vec3 co
 shading::SurfacePoint World::point_near(uint32_t object, uint32_t primitive, Vec3 const& p,
                                         Vec3 const& wo) const {
     Object const& o = objects_[object];
-    Vec3 const local = o.instanced || o.kind == ObjectKind::Sphere ? o.to_object.point(p) : p;
-    Hit hit{0, object, primitive};
+    Vec3 const local = o.instanced || o.kind != ObjectKind::Mesh ? o.to_object.point(p) : p;
+    Hit hit{0, object, primitive, local.x, local.y};
+    if (o.kind == ObjectKind::Disk) return point_on(hit, local, wo);
     if (o.kind == ObjectKind::Sphere) return point_on(hit, local, wo);
     TriangleData const& data = triangles_[size_t(o.triangles)];
     auto place = [&](uint32_t triangle) {
@@ -136,6 +141,19 @@ void World::sphere_point(Object const& object, Vec3 const& local,
         (absolute_vector(object.to_world, Vec3(1)) + abs(object.to_world.origin)) * kRounding;
 }
 
+void World::disk_point(Object const& object, Hit const& hit, shading::SurfacePoint& point) const {
+    point.p = object.to_world.point({hit.u, hit.v, 0});
+    point.ng = point.ns = normalize(object.to_object.transposed({0, 0, 1}));
+    point.uv = disk_uv(hit);
+    if (object.has_tangents) {
+        point.dpdu = object.to_world.x * 2.f;
+        point.dpdv = object.to_world.y * 2.f;
+    }
+    // As exact as the kernel's intersection, which does not know z = 0.
+    point.p_error =
+        (absolute_vector(object.to_world, Vec3(1, 1, 0)) + abs(object.to_world.origin)) * kRounding;
+}
+
 void World::apply_normal_map(Object const& object, shading::SurfacePoint& point) const {
     Vec3 const c = textures_.at(object.normal_map, point);
     Vec3 const n(2 * c.x - 1, 2 * c.y - 1, 2 * c.z - 1);
@@ -162,9 +180,10 @@ float World::opacity(Hit const& hit, Vec3 const& ng, Vec3 const& direction) cons
     Object const& o = objects_[hit.object];
     if (!within(textures_.needs(o.opacity), shading::Needs::uv))
         return textures_.opacity(o.opacity, filtered_point(hit, ng, direction));
-    return textures_.opacity(o.opacity, o.kind == ObjectKind::Mesh
-                                            ? mesh_uv(o, hit)
-                                            : lights::direction_to_uv(sphere_local(o, ng)));
+    Vec2 const uv = o.kind == ObjectKind::Mesh   ? mesh_uv(o, hit)
+                    : o.kind == ObjectKind::Disk ? disk_uv(hit)
+                                                 : lights::direction_to_uv(sphere_local(o, ng));
+    return textures_.opacity(o.opacity, uv);
 }
 
 /// Where on a sphere a hit is: its normal says so, and that of an instance is local already.
@@ -192,11 +211,13 @@ Color World::transmittance(Hit const& hit, Vec3 const& ng, Vec3 const& direction
 Color World::emission(shading::SurfacePoint const& point, Vec3 const& wo) const {
     Object const& o = objects_[point.object];
     if (!o.emission || dot(point.ng, wo) <= 0) return Color(0);
-    if (!use_footprints_) return textures_.radiance(o.emission, point);
+    float const towards = o.spread.factor(point.ng, wo);
+    if (towards == 0) return Color(0);
+    if (!use_footprints_) return textures_.radiance(o.emission, point) * towards;
     // As light sampling sees it, which has no ray.
     shading::SurfacePoint sharp = point;
     sharp.footprint = {};
-    return textures_.radiance(o.emission, sharp);
+    return textures_.radiance(o.emission, sharp) * towards;
 }
 
 shading::View World::view_of(shading::SurfacePoint const& point, Vec3 const& wo, float ior_outside,

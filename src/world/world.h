@@ -2,8 +2,8 @@
 //
 // Geometry is a list of *objects*: one shape at one place. Groups are opened when the world is
 // made. An object whose mesh is used only once is stored in world space; meshes used several
-// times are stored once and instanced. Spheres are Embree's where their transform keeps them
-// round, and instances of the unit sphere elsewhere.
+// times are stored once and instanced. Spheres and disks are Embree's where their transform keeps
+// them round, and instances of the unit sphere and disk elsewhere.
 #pragma once
 
 #include <memory>
@@ -41,7 +41,7 @@ struct TriangleData {
     bool mirrored = false; ///< counter-clockwise is the back
 };
 
-enum class ObjectKind : uint8_t { Mesh, Sphere };
+enum class ObjectKind : uint8_t { Mesh, Sphere, Disk };
 
 struct Object {
     ObjectKind kind = ObjectKind::Mesh;
@@ -54,6 +54,7 @@ struct Object {
     int32_t triangles = -1;    ///< index of the TriangleData
     scene::MaterialId material;
     shading::Emission emission;
+    lights::Spread spread; ///< of the emission
     scene::TextureId normal_map;
     shading::Opacity opacity;
     scene::Input<float> ior{1}; ///< of its inside
@@ -162,8 +163,8 @@ class World {
                         bool secondary) const;
     /// Whether those corners (bits) of a mesh's triangle `a` are corners of triangle `b`, too.
     bool has_corners(uint32_t object, uint32_t a, uint8_t corners, uint32_t b) const;
-    /// A point of a mesh at `hit`, or of a sphere in direction `local` from its centre, both in
-    /// the object's space; seen from unit `wo`.
+    /// A point of a mesh or a disk at `hit`, or of a sphere in direction `local` from its centre,
+    /// all in the object's space; seen from unit `wo`.
     shading::SurfacePoint point_on(Hit const& hit, Vec3 const& local, Vec3 const& wo,
                                    RayCone const& cone = {}) const;
     shading::UvFootprint uv_footprint(Object const& object, RayCone const& cone,
@@ -180,6 +181,7 @@ class World {
                           bool secondary) const;
     void mesh_point(Object const& object, Hit const& hit, shading::SurfacePoint& point) const;
     void sphere_point(Object const& object, Vec3 const& local, shading::SurfacePoint& point) const;
+    void disk_point(Object const& object, Hit const& hit, shading::SurfacePoint& point) const;
     Vec2 mesh_uv(Object const& object, Hit const& hit) const;
     static Vec3 sphere_local(Object const& object, Vec3 const& ng);
     /// The point that an opacity filter asks about: `ng` and `direction` are as the kernel has

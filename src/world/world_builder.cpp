@@ -32,6 +32,12 @@ scene::RayVisibility all_of(scene::RayVisibility const& a, scene::RayVisibility 
             a.volume && b.volume, a.shadow && b.shadow};
 }
 
+/// The same for the plane z = 0.
+bool keeps_circles(Affined const& m) {
+    double const a = length(m.x), b = length(m.y), least = 1e-6 * a;
+    return std::abs(a - b) < least && std::abs(dot(m.x, m.y)) < least * a;
+}
+
 } // namespace
 
 std::unique_ptr<World const> World::commit(std::shared_ptr<scene::Scene const> scene,
@@ -173,6 +179,9 @@ void WorldBuilder::add_object(scene::Shape const& shape, int32_t instance, Inher
     if (std::holds_alternative<scene::Sphere>(shape)) {
         object.kind = ObjectKind::Sphere;
         object.instanced = !keeps_round(given.transform);
+    } else if (std::holds_alternative<scene::Disk>(shape)) {
+        object.kind = ObjectKind::Disk;
+        object.instanced = !keeps_circles(given.transform);
     } else if (auto const* mesh = std::get_if<scene::MeshShape>(&shape)) {
         int32_t const file = mesh->filename.resource;
         auto const& data = scene_.meshes[size_t(file)];

@@ -10,19 +10,6 @@
 
 namespace weft::world {
 
-/// The lights while they are collected.
-struct LightList {
-    std::vector<Light> lights;
-    std::vector<lights::LightBounds> bounds; ///< one per light
-    std::vector<SourceLocation> locations;   ///< one per light
-    float cross_section = 1; ///< of the scene, for the power of what shines from infinity
-    SourceLocation where;    ///< of those that are added next
-
-    /// `power`: the luminance of what it emits in all.
-    void add(LightKind kind, lights::LightBounds where_it_is, float power,
-             scene::LightControls const& controls);
-};
-
 /// The bounds of what shines from infinitely far away.
 inline lights::LightBounds at_infinity() {
     lights::LightBounds bounds;
@@ -71,6 +58,7 @@ class WorldBuilder {
     void build_kernel_scene();
     RTCGeometry make_mesh(TriangleData const& triangles) const;
     RTCGeometry make_sphere(Vec3 const& centre, float radius) const;
+    RTCGeometry make_disk(Affine const& to_world) const;
     RTCScene instanced_scene(Object const& object);
     /// `mask`: bits of the rays that meet it.
     void attach(RTCScene to, RTCGeometry geometry, uint32_t id, bool filtered, RayMask mask);
@@ -82,8 +70,7 @@ class WorldBuilder {
     void mask_objects();
     RayMask shadow_mask(Links const& links) const;
     void link_lights(LightList& list);
-    /// Radiance averaged over the surface, roughly, for judging a light's power.
-    float mean_luminance(AreaLight const& light) const;
+    AreaLight make_area_light(uint32_t object, scene::AreaLight const& from) const;
     void prepare_environment(scene::EnvironmentLight const& light, SourceLocation const& where);
     void add_light(scene::PointLight const&, SourceLocation const&, LightList&);
     void add_light(scene::DirectionalLight const&, SourceLocation const&, LightList&);
@@ -105,7 +92,7 @@ class WorldBuilder {
     std::map<int32_t, int> mesh_uses_;                   ///< objects per mesh
     std::map<std::pair<int32_t, bool>, int32_t> shared_; ///< mesh, smooth -> triangles
     std::map<int32_t, RTCScene> mesh_scenes_;            ///< triangles -> kernel scene
-    RTCScene sphere_scene_ = nullptr;
+    RTCScene sphere_scene_ = nullptr, disk_scene_ = nullptr;
     SetNames sets_;
     std::vector<Links> shadow_links_; ///< one per bit of the ray masks
     std::vector<std::pair<uint32_t, scene::LightId>> area_objects_; ///< object, its light

@@ -24,6 +24,14 @@ std::string const kRectangleLight = R"(<light type="area"><instance><shape type=
     <emission type="lambertian" emission="3,4,5"/>
     <transform><scale value="1.5"/><rotate axis="1,0,0" angle="90"/><translate y="3"/></transform></instance></light>)";
 
+std::string const kEven = R"(<emission type="lambertian" emission="6,5,3"/>)";
+std::string const kBrightSpot = R"(<emission type="lambertian"><texture name="emission" type="image"
+    filename="spot.exr"/></emission>)";
+/// With an emission where `more` has none.
+std::string emitting(std::string const& more) {
+    return (more.find("<emission") == std::string::npos ? kEven : "") + more;
+}
+
 struct Case {
     std::string name, contents;
     int samples = 4000;
@@ -39,6 +47,16 @@ void write_sky(std::string const& path) {
     for (int c = 0; c < 3; ++c) sky.at(5, 6, c) = 40;
     for (int c = 0; c < 3; ++c) sky.at(11, 5, c) = 20 - 5 * float(c);
     image::write_exr(path, sky);
+}
+
+/// Mostly dark, and black at one end.
+void write_spot(std::string const& path) {
+    image::Image spot = image::make_image(16, 16, 3);
+    for (int y = 3; y < 16; ++y)
+        for (int x = 0; x < 16; ++x)
+            for (int c = 0; c < 3; ++c)
+                spot.at(x, y, c) = x > 8 && x < 12 && y > 6 && y < 10 ? 20 - 5 * float(c) : 0.4f;
+    image::write_exr(path, spot);
 }
 
 /// Small lights of all kinds, in all directions, from the floor up; `ball.ply` is in the folder.
@@ -75,6 +93,7 @@ std::string many_lights(int count) {
 
 std::vector<Case> cases(TemporaryFolder const& folder) {
     write_sky(folder / "sky.exr");
+    write_spot(folder / "spot.exr");
     write_ply(folder / "ball.ply", icosphere(1, true));
     scene::Mesh inverted =
         icosphere(1, true); // wound clockwise; only its normals say where outside is
@@ -88,14 +107,19 @@ std::vector<Case> cases(TemporaryFolder const& folder) {
     std::string const sky = R"(<light type="envmap"><texture type="image" filename="sky.exr"/>
         <transform><rotate axis="0,1,0" angle="70"/><rotate axis="1,0,0" angle="20"/></transform></light>)";
     auto mesh_light = [](std::string const& file, std::string const& transform,
-                         std::string const& more = "") {
-        return R"(<light type="area"><instance><shape type="mesh" filename=")" + file +
-               R"("/><emission type="lambertian" emission="6,5,3"/>)" + more + "<transform>" +
-               transform + "</transform></instance></light>";
+                         std::string const& more = "", std::string const& attributes = "") {
+        return "<light type=\"area\"" + attributes + R"(><instance><shape type="mesh" filename=")" +
+               file + "\"/>" + emitting(more) + "<transform>" + transform +
+               "</transform></instance></light>";
+    };
+    auto flat_light = [](std::string const& shape, std::string const& transform,
+                         std::string const& attributes = "", std::string const& more = "") {
+        return "<light type=\"area\"" + attributes + "><instance><shape type=\"" + shape + "\"/>" +
+               emitting(more) + "<transform>" + transform + "</transform></instance></light>";
     };
     auto sphere_light = [](std::string const& transform, std::string const& more = "") {
-        return R"(<light type="area"><instance><shape type="sphere"/><emission type="lambertian" emission="6,5,3"/>)" +
-               more + "<transform>" + transform + "</transform></instance></light>";
+        return R"(<light type="area"><instance><shape type="sphere"/>)" + emitting(more) +
+               "<transform>" + transform + "</transform></instance></light>";
     };
     auto ball = [](std::string const& bsdf, std::string const& more = "") {
         return "<instance><shape type=\"sphere\"/>" + bsdf + more + "</instance>";
@@ -148,6 +172,46 @@ std::vector<Case> cases(TemporaryFolder const& folder) {
          kFloor + kBall +
              R"(<light type="area"><instance><shape type="rectangle"/><emission type="lambertian" emission="5"/><transform>
                <matrix value="1.5,0.6,0,0, 0,1.2,0,0, 0,0,-1,0, 0,0,0,1"/><rotate axis="1,0,0" angle="-90"/><translate y="2.5"/></transform></instance></light>)"},
+        {"sheared and mirrored disk light",
+         kFloor + kBall +
+             flat_light("disk", shear + "<rotate axis=\"1,0,0\" angle=\"-90\"/>" + up)},
+        {"disk light that touches the floor",
+         kFloor + kBall +
+             flat_light("disk", "<scale value=\"0.9\"/><translate x=\"1.2\" z=\"0.6\"/>")},
+        {"disk light with holes, seen through the alpha filter",
+         kFloor + kBall +
+             flat_light(
+                 "disk",
+                 "<scale value=\"1.5\"/><rotate axis=\"1,0,0\" angle=\"90\"/><translate y=\"3\"/>",
+                 "",
+                 R"(<texture name="alpha" type="checkerboard" color0="0.3" color1="0.8" scale="2,5"/>)")},
+        {"sheared disk light with a bright spot",
+         kFloor + kBall +
+             flat_light("disk", shear + "<rotate axis=\"1,0,0\" angle=\"-90\"/>" + up, "",
+                        kBrightSpot)},
+        {"rectangle light with a bright spot, near",
+         kFloor + kBall +
+             flat_light("rectangle",
+                        "<rotate axis=\"0,1,0\" angle=\"180\"/><translate x=\"0.4\" z=\"1.2\"/>",
+                        "", kBrightSpot)},
+        {"sheared sphere light with a bright spot",
+         kFloor + kBall + sphere_light(shear + up, kBrightSpot)},
+        {"spread of a rectangle light",
+         kFloor + kBall +
+             flat_light(
+                 "rectangle",
+                 "<scale value=\"1.5\"/><rotate axis=\"1,0,0\" angle=\"90\"/><translate y=\"2\"/>",
+                 " spread=\"50\" power=\"60\"")},
+        {"spread of a sheared rectangle light and of a disk",
+         kFloor + kBall +
+             flat_light("rectangle", shear + "<rotate axis=\"1,0,0\" angle=\"-80\"/>" + up,
+                        " spread=\"70\"") +
+             flat_light("disk", "<rotate axis=\"0,1,0\" angle=\"60\"/><translate x=\"-2.5\"/>",
+                        " spread=\"40\" power=\"30\"")},
+        {"spread and power of a mesh light",
+         kFloor + kBall + mesh_light("ball.ply", shear + up, "", " spread=\"60\" power=\"40\"")},
+        {"mesh light of strongly uneven emission",
+         kFloor + kBall + mesh_light("ball.ply", shear + up, kBrightSpot)},
         {"sheared and mirrored mesh light", kFloor + kBall + mesh_light("ball.ply", shear + up)},
         {"mesh light wound inwards", kFloor + kBall + mesh_light("inverted.ply", up)},
         {"textured mesh light wound inwards, without uvs",

@@ -1,6 +1,7 @@
 // Solid angles and densities against closed forms.
 #include <gtest/gtest.h>
 
+#include "base/warp.h"
 #include "tests/lights/emitter_cases.h"
 
 namespace weft::lights::testing {
@@ -176,6 +177,35 @@ TEST(Emitter, areas) {
     MeshEmitter const mesh(p, t);
     EXPECT_NEAR(mesh.area(), 22, 1e-5);
     EXPECT_NEAR(length(mesh.centre()), 0, 1e-6);
+}
+
+TEST(Disk, density_is_nearly_constant) {
+    double const bound = (1 + std::sqrt(2.0)) / 2 * (1 + 1e-5);
+    Rng rng(5);
+    for (int k = 0; k < 3000; ++k) {
+        Affine const a({1, 0, 0}, {rng.next() * 2 - 1, std::exp(-8 * rng.next()), 0}, {0, 0, 1},
+                       {0, 0, 0});
+        DiskEmitter const disk(a);
+        Vec2 const beside = square_to_disk(rng.next2()) * std::exp(6 * rng.next() - 3);
+        Vec3 const ref = a.point({beside.x, beside.y, 0}) + Vec3(0, 0, std::exp(-9 * rng.next()));
+        double low = std::numeric_limits<double>::infinity(), high = 0;
+        for (int i = 0; i < 200; ++i) {
+            double const pdf = double(disk.sample(ref, rng.next2()).pdf);
+            low = std::min(low, pdf);
+            high = std::max(high, pdf);
+        }
+        bool const by_area = high > 0.9e6 || length(ref) > 32;
+        EXPECT_TRUE(by_area || high / low < bound) << high / low << a.y << ref;
+    }
+}
+
+TEST(Disk, of_a_circular_cone_is_uniform) {
+    for (float height : {0.01f, 0.3f, 1.f, 10.f, 30.f}) {
+        double const exact = kTau * (1 - height / std::hypot(1.0, double(height)));
+        for (Vec2 u : {Vec2(0, 0), Vec2(0.3f, 0.8f), Vec2(0.999f, 0.4f)})
+            EXPECT_NEAR(DiskEmitter(Affine()).sample({0, 0, height}, u).pdf * exact, 1, 2e-5)
+                << height;
+    }
 }
 
 } // namespace

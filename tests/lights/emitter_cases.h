@@ -51,6 +51,17 @@ inline std::vector<Case> emitter_cases() {
         bool const flip = a.determinant() < 0;
         cases.push_back({name, MeshEmitter(p, t, {}, flip), mesh_hits(p, t, flip), ref, extent(a)});
     };
+    auto const disk = [&](char const* name, Affine const& a, Vec3 const& ref) {
+        double const r = double(length(a.x) + length(a.y));
+        cases.push_back({name, DiskEmitter(a), disk_hits(a), ref, r});
+    };
+    auto const triangle = [&](char const* name, Affine const& a, Vec3 const& ref) {
+        std::vector<Vec3> const p{a.point({-1, -1, 0}), a.point({1, -1, 0}), a.point({0, 1, 0})};
+        std::vector<MeshEmitter::Triangle> const t{{0, 1, 2}};
+        bool const flip = a.determinant() < 0;
+        double const r = double(length(a.x) + length(a.y));
+        cases.push_back({name, MeshEmitter(p, t, {}, flip), mesh_hits(p, t, flip), ref, r});
+    };
     Affine const turned = at({0.3f, -0.2f, 0.5f}, rotation({1, 2, 3}, 1.1f));
     Affine const slab = turned * scaling(1.5f, 0.4f, 2);
     Affine const mirror = turned * scaling(-1, 0.7f, 1);
@@ -71,7 +82,35 @@ inline std::vector<Case> emitter_cases() {
     rectangle("parallelogram mirrored", mirror_shear, {-1, 0.6f, -1.4f});
     rectangle("parallelogram near", shear, shear.point({0.4f, 0.1f, 0.05f}));
     rectangle("parallelogram grazing", shear, shear.point({2.5f, 0.1f, 0.05f}));
+    rectangle("parallelogram very near", shear, shear.point({-0.9f, 0.95f, 1e-3f}));
     rectangle("parallelogram far", shear, side * 1e5f);
+
+    disk("disk", Affine(), {0.3f, 0.2f, 1.5f});
+    disk("disk on its axis", Affine(), {0, 0, 0.8f});
+    disk("disk behind", Affine(), {0.3f, 0.2f, -1.5f});
+    disk("disk near", turned, turned.point({0.2f, -0.6f, 5e-4f}));
+    disk("disk near its edge", turned, turned.point({0.6f * 0.999f, 0.8f * 0.999f, 2e-3f}));
+    disk("disk beyond its edge", turned, turned.point({0.6f * 1.01f, 0.8f * 1.01f, 5e-3f}));
+    disk("disk grazing", turned, turned.point({2.5f, 0.3f, 0.05f}));
+    disk("disk far", turned, side * 20.f);
+    disk("disk very far", turned, side * 1e5f);
+    disk("ellipse", slab, side);
+    disk("ellipse mirrored", mirror, side);
+    disk("ellipse near", slab, slab.point({0.2f, -0.6f, 5e-4f}));
+    disk("ellipse grazing", slab, slab.point({0.5f, 2.4f, 0.05f}));
+    disk("ellipse sheared", shear, side);
+    disk("ellipse sheared and mirrored", mirror_shear, {-1, 0.6f, -1.4f});
+    disk("ellipse sheared, near", shear, shear.point({0.4f, 0.1f, 0.02f}));
+    disk("ellipse sheared, grazing", shear, shear.point({2.5f, 0.1f, 0.05f}));
+    disk("ellipse sheared, far", mirror_shear, side * 1e3f);
+
+    triangle("triangle", turned, side);
+    triangle("triangle mirrored", mirror_shear, side);
+    triangle("triangle near", shear, shear.point({0.1f, 0.2f, 1e-3f}));
+    triangle("triangle near a corner", shear, shear.point({-0.999f, -0.999f, 2e-3f}));
+    triangle("triangle grazing", slab, slab.point({2.5f, 0.3f, 0.05f}));
+    triangle("triangle at the border of far", turned, side * 6.f);
+    triangle("triangle far", mirror, side * 1e4f);
 
     sphere("sphere", Affine(), side, 1);
     sphere("sphere turned", turned * scaling(0.5f, 0.5f, 0.5f), side, 0.5);

@@ -43,6 +43,17 @@ inline Intersect rectangle_hits(Affine const& a) {
     };
 }
 
+inline Intersect disk_hits(Affine const& a) {
+    Affined const m(a), inv = m.inverse();
+    Vec3d const n = normalize(inv.transposed({0, 0, 1}));
+    return [=](Vec3d const& o, Vec3d const& d, std::vector<Hit>& hits) {
+        Vec3d const lo = inv.point(o), ld = inv.vector(d);
+        double const t = -lo.z / ld.z;
+        Vec3d const p = lo + ld * t;
+        if (t > 0 && p.x * p.x + p.y * p.y <= 1) hits.push_back({m.point({p.x, p.y, 0}), n, 0});
+    };
+}
+
 inline Intersect sphere_hits(Affine const& a) {
     Affined const m(a), inv = m.inverse();
     return [=](Vec3d const& o, Vec3d const& d, std::vector<Hit>& hits) {
@@ -75,11 +86,21 @@ inline Intersect mesh_hits(std::vector<Vec3> const& positions,
     };
 }
 
+/// Of all parts of an emitter, each with the same chance.
 inline EmitterSample sample(Emitter const& e, Vec3 const& ref, Vec2 u) {
-    return match(e, [&](auto const& x) { return x.sample(ref, u); });
+    return match(e, [&](auto const& x) {
+        float const parts = float(x.primitives()), at = u.x * parts;
+        float const part = std::min(std::floor(at), parts - 1);
+        EmitterSample s =
+            x.sample(ref, {std::min(at - part, kOneMinusEpsilon), u.y}, uint32_t(part));
+        s.pdf /= parts;
+        return s;
+    });
 }
 inline float pdf(Emitter const& e, Vec3 const& ref, Hit const& h) {
-    return match(e, [&](auto const& x) { return x.pdf(ref, Vec3(h.p), Vec3(h.n), h.primitive); });
+    return match(e, [&](auto const& x) {
+        return x.pdf(ref, Vec3(h.p), Vec3(h.n), h.primitive) / float(x.primitives());
+    });
 }
 inline Vec3 centre(Emitter const& e) {
     return match(e, [](auto const& x) { return x.centre(); });

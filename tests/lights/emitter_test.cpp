@@ -133,7 +133,9 @@ TEST(Emitter, mirrored_transforms_keep_the_front) {
         // The mesh: one triangle of the same square, whose flip says that A mirrors.
         MeshEmitter const mesh({a.point({-1, -1, 0}), a.point({1, -1, 0}), a.point({1, 1, 0})},
                                {{0, 1, 2}}, {}, a.determinant() < 0);
-        EXPECT_NEAR(dot(mesh.sample({0, 0, 5}, {0.3f, 0.4f}).n, front), 1, 1e-6);
+        EXPECT_NEAR(dot(mesh.sample({0, 0, 5}, {0.3f, 0.4f}, 0).n, front), 1, 1e-6);
+        EXPECT_NEAR(dot(mesh.normal(0), front), 1, 1e-6);
+        EXPECT_NEAR(dot(DiskEmitter(a).normal(), front), 1, 1e-6);
         // The sphere: outwards.
         EmitterSample const s = SphereEmitter(a).sample({3, 4, 5}, {0.3f, 0.4f});
         EXPECT_NEAR(dot(s.n, normalize(s.p)), 1, 1e-6);
@@ -150,6 +152,10 @@ TEST(Emitter, texture_coordinates) {
         Vec3d const on_square = inverse.point(Vec3d(r.p));
         EXPECT_NEAR(on_square.x, 2 * r.uv.x - 1, 2e-6);
         EXPECT_NEAR(on_square.y, 2 * r.uv.y - 1, 2e-6);
+        EmitterSample const d = DiskEmitter(a).sample({4, -2, 5}, u);
+        Vec3d const on_disk = inverse.point(Vec3d(d.p));
+        EXPECT_NEAR(on_disk.x, 2 * d.uv.x - 1, 2e-6);
+        EXPECT_NEAR(on_disk.y, 2 * d.uv.y - 1, 2e-6);
         EmitterSample const s = SphereEmitter(a).sample({4, -2, 5}, u);
         Vec3d const on_sphere = inverse.point(Vec3d(s.p));
         EXPECT_NEAR(on_sphere.y, std::cos(double(s.uv.y) * kTau / 2), 2e-6);
@@ -161,7 +167,7 @@ TEST(Emitter, texture_coordinates) {
     // A mesh interpolates what it is given.
     MeshEmitter const mesh({{0, 0, 0}, {2, 0, 0}, {0, 3, 0}}, {{0, 1, 2}},
                            {{0.5f, 0.1f}, {0.9f, 0.1f}, {0.5f, 0.7f}});
-    EmitterSample const s = mesh.sample({0, 0, 1}, {0.6f, 0.3f});
+    EmitterSample const s = mesh.sample({0, 0, 1}, {0.6f, 0.3f}, 0);
     EXPECT_NEAR(s.uv.x, 0.5f + 0.4f * s.p.x / 2, 1e-6);
     EXPECT_NEAR(s.uv.y, 0.1f + 0.6f * s.p.y / 3, 1e-6);
 }
@@ -171,6 +177,8 @@ TEST(Emitter, degenerate_shapes_are_never_sampled) {
     for (Affine const& flat : {scaling(0, 1, 1), scaling(1, 0, 1), scaling(0, 0, 0)}) {
         EXPECT_EQ(RectangleEmitter(flat).sample(ref, {0.3f, 0.6f}).pdf, 0);
         EXPECT_EQ(RectangleEmitter(flat).area(), 0);
+        EXPECT_EQ(DiskEmitter(flat).sample(ref, {0.3f, 0.6f}).pdf, 0);
+        EXPECT_EQ(DiskEmitter(flat).pdf(ref, {0, 0, 0}, {0, 0, 1}), 0);
         EXPECT_EQ(SphereEmitter(flat).sample(ref, {0.3f, 0.6f}).pdf, 0);
         EXPECT_EQ(SphereEmitter(flat).pdf(ref, {0, 0, 0}, {0, 0, 1}), 0);
     }
@@ -178,14 +186,16 @@ TEST(Emitter, degenerate_shapes_are_never_sampled) {
     RectangleEmitter const paper(scaling(1, 1, 0));
     EXPECT_GT(paper.sample(ref, {0.3f, 0.6f}).pdf, 0);
     EXPECT_EQ(paper.normal(), Vec3(0, 0, 1));
+    DiskEmitter const plate(scaling(1, 1, 0));
+    EXPECT_GT(plate.sample(ref, {0.3f, 0.6f}).pdf, 0);
+    EXPECT_EQ(plate.normal(), Vec3(0, 0, 1));
+    EXPECT_EQ(plate.sample({3, 1, 0}, {0.3f, 0.6f}).pdf, 0);
     // Edge-on there is no solid angle.
     EXPECT_EQ(paper.sample({3, 1, 0}, {0.3f, 0.6f}).pdf, 0);
-    EXPECT_EQ(MeshEmitter({}, {}).sample(ref, {0.3f, 0.6f}).pdf, 0);
-    EXPECT_EQ(MeshEmitter({{1, 1, 1}, {2, 2, 2}}, {{0, 1, 1}}).sample(ref, {0.3f, 0.6f}).pdf, 0);
-    // A degenerate triangle beside a good one is passed over.
-    MeshEmitter const mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 1}, {0, 1, 2}, {2, 2, 2}});
-    for (float u : {0.f, 0.5f, kOneMinusEpsilon})
-        EXPECT_EQ(mesh.sample(ref, {u, 0.5f}).primitive, 1u);
+    MeshEmitter const mesh({{1, 1, 1}, {2, 2, 2}}, {{0, 1, 1}});
+    EXPECT_EQ(mesh.sample(ref, {0.3f, 0.6f}, 0).pdf, 0);
+    EXPECT_EQ(mesh.pdf(ref, {1, 1, 1}, {0, 0, 1}, 0), 0);
+    EXPECT_EQ(MeshEmitter({}, {}).area(), 0);
 }
 
 TEST(Emitter, corners_of_the_unit_square_are_safe) {

@@ -98,6 +98,27 @@ TEST(Irradiance, of_spheres) {
     }
 }
 
+TEST(Irradiance, of_disks) {
+    // On a surface parallel to the disk, beside its axis (Howell, A Catalog of Radiation Heat
+    // Transfer Configuration Factors, B-12): pi / 2 (1 - (d^2 - r^2) / root).
+    struct {
+        float radius, height, beside;
+    } const lights[] = {{1, 1, 0}, {1, 0.2f, 0.9f}, {0.5f, 2, 3}, {1, 0.01f, 0.5f}, {1, 40, 30}};
+    double const level = weft::testing::sidak(kAlpha, int(std::size(lights)));
+    for (auto const& light : lights) {
+        SCOPED_TRACE(light.height);
+        double const r2 = square(light.radius), h2 = square(light.height),
+                     a2 = square(light.beside), sum = a2 + h2 + r2;
+        double const exact = kTau / 4 * (1 - (a2 + h2 - r2) / std::sqrt(sum * sum - 4 * a2 * r2));
+        Affine const down({light.radius, 0, 0}, {0, -light.radius, 0}, {0, 0, -1},
+                          {0.6f * light.beside, 0.8f * light.beside, light.height});
+        auto const e = irradiance(DiskEmitter(down), {0, 0, 0}, {0, 0, 1}, 400'000);
+        double const sigma = std::sqrt(e.variance) + 2e-6 * exact;
+        EXPECT_GT(weft::testing::normal_tail((e.mean - exact) / sigma), level)
+            << e.mean << " for " << exact;
+    }
+}
+
 TEST(Irradiance, of_ellipsoids_and_meshes_by_rays) {
     double const level = weft::testing::sidak(kAlpha, int(emitter_cases().size()));
     int const n = 400'000;

@@ -14,7 +14,9 @@ using weft::testing::sidak;
 
 constexpr double kAlpha = 0.01; // for each test
 
-using Lamp = std::variant<PointLight, SpotLight, RectangleEmitter, SphereEmitter, MeshEmitter>;
+/// A mesh is of one triangle: each of them is a light of its own.
+using Lamp =
+    std::variant<PointLight, SpotLight, RectangleEmitter, SphereEmitter, DiskEmitter, MeshEmitter>;
 
 struct Case {
     std::string name;
@@ -24,7 +26,12 @@ struct Case {
 
 void add(Case& c, Lamp const& lamp, float power) {
     c.lamps.push_back(lamp);
-    c.bounds.push_back(match(lamp, [](auto const& l) { return bounds_of(l); }));
+    c.bounds.push_back(match(lamp, [](auto const& l) {
+        if constexpr (requires { bounds_of(l, 0); })
+            return bounds_of(l, 0);
+        else
+            return bounds_of(l);
+    }));
     c.bounds.back().power = power;
 }
 
@@ -32,15 +39,14 @@ Lamp random_lamp(Rng& rng, Vec3 const& at, float size) {
     Vec3 const axis = square_to_sphere(rng.next2());
     Vec3 const aside = normalize(cross(axis, square_to_sphere(rng.next2()))) * size;
     Affine const place(aside, cross(axis, aside) * (0.2f + rng.next()), axis * size, at);
-    uint32_t const kind = rng.next_uint() % 5;
+    uint32_t const kind = rng.next_uint() % 6;
     if (kind == 0) return PointLight{at};
     if (kind == 1) return SpotLight{at, axis, Color(1), rng.next() * 4, rng.next() * 4};
     if (kind == 2) return RectangleEmitter(place);
     if (kind == 3) return SphereEmitter(place);
-    // A bent sheet.
-    std::vector<Vec3> const corners{place.point({-1, -1, 0}), place.point({1, -1, 0}),
-                                    place.point({-1, 1, 0.5f}), place.point({1, 1, 0})};
-    return MeshEmitter(corners, {{0, 1, 2}, {1, 3, 2}});
+    if (kind == 4) return DiskEmitter(place);
+    return MeshEmitter({place.point({-1, -1, 0}), place.point({1, -1, 0}), place.point({-1, 1, 0})},
+                       {{0, 1, 2}});
 }
 
 Case random_case(std::string name, uint32_t count, float size, Vec3 const& extent, uint64_t seed) {
@@ -156,7 +162,7 @@ double contribution(Lamp const& lamp, Place const& at, Vec2 u) {
     };
     return match(lamp, [&](auto const& l) -> double {
         if constexpr (requires { l.area(); }) {
-            EmitterSample const s = l.sample(at.ref, u);
+            EmitterSample const s = l.sample(at.ref, u, 0);
             return s.pdf > 0 && dot(s.n, s.wi) < 0 ? received(s.wi) / double(s.pdf) : 0.0;
         } else {
             DeltaLightSample const s = l.sample(at.ref);

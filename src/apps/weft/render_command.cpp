@@ -12,6 +12,7 @@
 #include "image/write.h"
 #include "integrator/pixel_renderer.h"
 #include "session/render.h"
+#include "world/lints.h"
 
 namespace weft::apps {
 
@@ -95,7 +96,8 @@ int render_job(RenderArguments& a, io::RenderJob const& job, bool only_job,
     auto const world =
         world::World::commit(job.scene, {a.isa, parse_size(a.size, *job.scene),
                                          integrator::combines_strategies(job.integrator)});
-    for (std::string const& lint : lint_warnings(*world)) fmt::print(stderr, "warning: {}\n", lint);
+    for (std::string const& lint : world::lint_warnings(*world))
+        fmt::print(stderr, "warning: {}\n", lint);
 
     ProgressLine progress(progress_style(a.progress));
     a.options.on_progress = [&](session::Progress const& p) { progress.print(p); };
