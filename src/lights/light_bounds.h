@@ -20,6 +20,7 @@ struct LightBounds {
     float theta_o = kPi;              ///< radians in [0, pi]
     float theta_e = kPi / 2;          ///< radians in [0, pi / 2]
     float power = 0;                  ///< luminance times the user's weight, finite and >= 0
+    float weight = 1;                 ///< the user's, > 0 where the power is
     bool at_infinity = false;         ///< light comes from a direction, not from a place
 
     Vec3 centre() const { return (low + high) * 0.5f; }

@@ -229,7 +229,7 @@ LightTree::LightTree(std::span<LightBounds const> lights) : places_(lights.size(
     if (positive == 0) return;
     float const least = float(1e-3 * sum / positive);
     Builder builder{*this, {}, {}};
-    std::vector<float> top;
+    std::vector<float> top, weights;
     float greatest = 0;
     for (uint32_t i = 0; i < lights.size(); ++i) {
         LightBounds b = lights[i];
@@ -238,6 +238,7 @@ LightTree::LightTree(std::span<LightBounds const> lights) : places_(lights.size(
         if (b.at_infinity) {
             infinite_.push_back(i);
             top.push_back(b.power);
+            weights.push_back(b.weight);
             continue;
         }
         builder.lights.push_back(b);
@@ -251,11 +252,18 @@ LightTree::LightTree(std::span<LightBounds const> lights) : places_(lights.size(
         builder.least_radius = std::max(1e-6f * radius, 1e-12f);
         builder.per_intensity = 1 / greatest;
         top.insert(top.begin(), all.bounds.power);
+        float weight = 0;
+        for (LightBounds const& b : builder.lights) weight = std::max(weight, b.weight);
+        weights.insert(weights.begin(), weight);
         first_infinite_ = 1;
         root_ = builder.build(all, 0, 0);
     }
     for (uint32_t k = 0; k < infinite_.size(); ++k)
         places_[infinite_[k]].entry = first_infinite_ + k;
+    float const power = std::accumulate(top.begin(), top.end(), 0.f),
+                weight = std::accumulate(weights.begin(), weights.end(), 0.f);
+    for (size_t k = 0; k < top.size(); ++k)
+        top[k] = 0.5f * top[k] / power + 0.5f * weights[k] / weight;
     top_ = Distribution1D(top);
 }
 

@@ -121,7 +121,10 @@ void WorldBuilder::prepare_environment(scene::EnvironmentLight const& light,
 }
 
 bool WorldBuilder::is_compensated(scene::LightControls const& controls) const {
-    return options_.compensate && !is_sampled_alone(controls);
+    // What shadow catchers catch is found by light sampling alone, too.
+    bool const caught = std::any_of(world_.objects_.begin(), world_.objects_.end(),
+                                    [](Object const& o) { return o.shadow_catcher; });
+    return options_.compensate && !caught && !is_sampled_alone(controls);
 }
 
 void WorldBuilder::add_environment(EnvironmentLight light, std::span<scene::PortalId const> portals,

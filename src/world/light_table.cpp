@@ -16,6 +16,7 @@ void LightList::add(LightKind kind, std::span<lights::LightBounds const> leaves,
     for (lights::LightBounds const& leaf : leaves) {
         bounds.push_back(leaf);
         bounds.back().power *= controls.weight;
+        bounds.back().weight = controls.weight;
     }
 }
 

@@ -250,7 +250,7 @@ TEST(LightTree, the_rest_of_the_number_is_uniform) {
     }
 }
 
-TEST(LightTree, infinite_lights_are_chosen_by_power) {
+TEST(LightTree, infinite_lights_are_chosen_half_by_power_and_half_evenly) {
     Case c = random_case("", 4, 0.2f, Vec3(1), 7);
     float const powers[]{1, 2, 5, 0};
     for (int i = 0; i < 4; ++i) {
@@ -260,7 +260,10 @@ TEST(LightTree, infinite_lights_are_chosen_by_power) {
     LightTree const tree(c.bounds);
     for (Place const& at : places(c))
         for (uint32_t i = 0; i < 4; ++i)
-            EXPECT_NEAR(tree.probability(at.ref, at.normal, i), powers[i] / 8, 1e-6);
+            EXPECT_NEAR(tree.probability(at.ref, at.normal, i),
+                        powers[i] > 0 ? powers[i] / 16 + 1.f / 6 : 0, 1e-6);
+    c.bounds[0].weight = 0.5f;
+    EXPECT_NEAR(LightTree(c.bounds).probability(Vec3(0), Vec3(0), 0), 1.f / 16 + 1.f / 10, 1e-6);
 }
 
 TEST(LightTree, no_positive_power_is_negligible) {
@@ -271,8 +274,8 @@ TEST(LightTree, no_positive_power_is_negligible) {
     bounds[3].power = 1e-12f;
     LightTree const tree(bounds);
     Place const at{{1, 2, 3}, {0, 0, 1}};
-    EXPECT_NEAR(tree.probability(at.ref, at.normal, 1), 1e-3 / 3, 1e-6);
-    EXPECT_NEAR(tree.probability(at.ref, at.normal, 3), 1e-3 / 3, 1e-6);
+    for (uint32_t i : {1u, 3u})
+        EXPECT_NEAR(tree.probability(at.ref, at.normal, i), 0.5 * 1e-3 / 3 + 0.5 / 3, 1e-6);
     EXPECT_EQ(tree.probability(at.ref, at.normal, 2), 0);
 }
 
