@@ -8,7 +8,8 @@ LightTable::LightTable(std::vector<Light> lights, std::span<lights::LightBounds 
                        World const& world)
     : lights_(std::move(lights)), tree_(bounds), world_(&world), textures_(&world.textures()) {
     for (size_t i = 0; i < lights_.size(); ++i)
-        if (std::holds_alternative<EnvironmentLight>(lights_[i].kind))
+        if (std::holds_alternative<EnvironmentLight>(lights_[i].kind) ||
+            std::holds_alternative<lights::SunDisk>(lights_[i].kind))
             environments_.push_back(int32_t(i));
 }
 
@@ -70,6 +71,25 @@ LightSample LightTable::sample_light(EnvironmentLight const& l, Vec3 const&, Vec
     sample.radiance = textures_->radiance(l.texture, s.uv);
     sample.pdf = s.pdf;
     return sample;
+}
+
+LightTable::Found LightTable::found_at(EnvironmentLight const& l, Vec3 const& d) const {
+    Vec3 const local = normalize(l.to_map.vector(d));
+    return {textures_->radiance(l.texture, lights::direction_to_uv(local)), l.sampler.pdf(local)};
+}
+
+LightSample LightTable::sample_light(lights::SunDisk const& l, Vec3 const&, Vec2 u) const {
+    auto const s = l.sample(u);
+    LightSample sample;
+    sample.wi = s.direction;
+    sample.distance = kInfinity;
+    sample.radiance = s.radiance;
+    sample.pdf = s.pdf;
+    return sample;
+}
+
+LightTable::Found LightTable::found_at(lights::SunDisk const& l, Vec3 const& d) const {
+    return {l.radiance(d), l.pdf(d)};
 }
 
 LightSample LightTable::sample(Vec3 const& ref, Vec3 const& n, Vec3 const& u) const {

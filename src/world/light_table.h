@@ -5,10 +5,12 @@
 #include <vector>
 
 #include "base/affine.h"
+#include "base/match.h"
 #include "lights/delta_lights.h"
 #include "lights/emitter_geometry.h"
 #include "lights/environment.h"
 #include "lights/light_tree.h"
+#include "lights/sun_disk.h"
 #include "scene/scene.h"
 #include "shading/textures.h"
 #include "world/light_rules.h"
@@ -35,7 +37,7 @@ struct EnvironmentLight {
 };
 
 using LightKind = std::variant<lights::PointLight, lights::DirectionalLight, lights::SpotLight,
-                               AreaLight, EnvironmentLight>;
+                               AreaLight, EnvironmentLight, lights::SunDisk>;
 
 struct Light {
     LightKind kind;
@@ -73,28 +75,38 @@ class LightTable {
     float pdf(int32_t light, Vec3 const& ref, Vec3 const& n,
               shading::SurfacePoint const& point) const;
 
-    /// Radiance of all environments from unit direction `d`, each with the density with which
-    /// `sample` gives that direction: calls f(light, radiance, pdf).
+    /// Radiance from unit direction `d` of all lights infinitely far away that rays can meet, each
+    /// with the density with which `sample` gives that direction: calls f(light, radiance, pdf).
     template <class F>
     void environment(Vec3 const& ref, Vec3 const& n, Vec3 const& d, F&& f) const {
         for (int32_t i : environments_) {
-            auto const& light = std::get<EnvironmentLight>(lights_[size_t(i)].kind);
-            Vec3 const local = normalize(light.to_map.vector(d));
-            Color const radiance =
-                textures_->radiance(light.texture, lights::direction_to_uv(local));
-            f(i, radiance, tree_.probability(ref, n, uint32_t(i)) * light.sampler.pdf(local));
+            Found const found = match(lights_[size_t(i)].kind,
+                                      [&](auto const& light) { return found_at(light, d); });
+            f(i, found.radiance, tree_.probability(ref, n, uint32_t(i)) * found.pdf);
         }
     }
 
   private:
+    /// What a ray that leaves the scene finds of a light.
+    struct Found {
+        Color radiance;
+        float pdf = 0; ///< per solid angle, of the light alone
+    };
+    Found found_at(EnvironmentLight const& light, Vec3 const& d) const;
+    Found found_at(lights::SunDisk const& light, Vec3 const& d) const;
+    template <class Other>
+    Found found_at(Other const&, Vec3 const&) const {
+        return {};
+    }
     LightSample sample_light(lights::PointLight const& l, Vec3 const& ref, Vec2 u) const;
     LightSample sample_light(lights::DirectionalLight const& l, Vec3 const& ref, Vec2 u) const;
     LightSample sample_light(lights::SpotLight const& l, Vec3 const& ref, Vec2 u) const;
     LightSample sample_light(AreaLight const& l, Vec3 const& ref, Vec2 u) const;
     LightSample sample_light(EnvironmentLight const& l, Vec3 const& ref, Vec2 u) const;
+    LightSample sample_light(lights::SunDisk const& l, Vec3 const& ref, Vec2 u) const;
 
     std::vector<Light> lights_;
-    std::vector<int32_t> environments_;
+    std::vector<int32_t> environments_; ///< lights that rays meet infinitely far away
     lights::LightTree tree_;
     World const* world_ = nullptr;
     shading::Textures const* textures_ = nullptr; ///< of the world

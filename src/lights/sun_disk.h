@@ -1,0 +1,53 @@
+// A disk of light infinitely far away: the sun, and any directional light with an angular size.
+//
+// All directions within an angular radius of an axis. With x in [0, 1] the share of the cone's
+// solid angle that is nearer to the axis, its radiance is, channel by channel,
+//
+//   L(x) = L_0 mu^alpha,  mu = sqrt(1 - x)
+//
+// the limb darkening of Hestroffer and Magnan 1998, "Wavelength dependency of the Solar limb
+// darkening" (their u = 1), where mu is the cosine at which a ray leaves the sphere that is seen:
+// sin(theta)^2 = x sin(radius)^2 but for a term of the order of radius^2. alpha = 0 is a uniform
+// disk. Directions are sampled in proportion to the least darkened channel, so that no ratio of
+// radiance to density exceeds its value at the centre.
+#pragma once
+
+#include "base/color.h"
+#include "base/frame.h"
+#include "base/warp.h"
+
+namespace weft::lights {
+
+/// The sun's diameter as seen from the earth at its mean distance, in degrees.
+inline constexpr float kSunDiameter = 0.533f;
+/// alpha = -0.023 + 0.292 / lambda, lambda in um, at 610, 550 and 465 nm.
+inline constexpr Color kSunLimb{0.456f, 0.508f, 0.605f};
+
+struct SunDisk {
+    struct Sample {
+        Vec3 direction{0, 0, 1}; ///< unit, towards the light
+        Color radiance;
+        float pdf = 0; ///< per solid angle; > 0
+    };
+
+    Vec3 direction{0, 1, 0}; ///< unit, towards the centre
+    float one_minus_cos = 1; ///< of the angular radius, in (0, 2]: 2 is the whole sphere
+    Color centre{1};         ///< L_0
+    Color limb{Color(0)};    ///< alpha per channel, >= 0
+
+    /// Uniform in u over what it emits.
+    Sample sample(Vec2 u) const;
+    /// That `sample` gives the unit direction `d`; 0 off the disk.
+    float pdf(Vec3 const& d) const;
+    /// From the unit direction `d`, towards the light; black off the disk.
+    Color radiance(Vec3 const& d) const;
+    /// On a surface that faces the centre (of a disk of at most a hemisphere).
+    Color irradiance() const;
+};
+
+/// The disk of that irradiance on a surface that faces it. `radius`: radians in (0, pi / 2], and
+/// best above 1e-3: directions of floats cut the rim of a smaller one into steps.
+SunDisk make_sun_disk(Vec3 const& direction, float radius, Color const& irradiance,
+                      Color const& limb = Color(0));
+
+} // namespace weft::lights
