@@ -20,7 +20,7 @@ bool is_wound_inwards(TriangleData const& data, scene::Mesh::Triangle const& t) 
 float WorldBuilder::mean_luminance(AreaLight const& light) const {
     shading::Emission const& input = light.emission;
     if (!input.color.texture && !input.strength.texture)
-        return luminance(input.color.value * input.strength.value);
+        return luminance(input.color.value * input.tint * input.strength.value);
     constexpr int n = 32;
     double sum = 0;
     for (int i = 0; i < n * n; ++i) {

@@ -13,7 +13,8 @@ Affine rotation_of(Affined const& m) {
 /// For each cell of a lat-long grid the mean luminance over the footprint of the bilinear filter:
 /// positive wherever a lookup in the cell can be, so that no light goes unsampled.
 std::vector<float> environment_cells(shading::Textures const& textures,
-                                     scene::Input<Color> const& input, Vec2i size) {
+                                     scene::Input<Color> const& input, Color const& tint,
+                                     Vec2i size) {
     std::vector<float> values(size_t(size.x) * size_t(size.y)), cells(values.size());
     auto at = [&](int x, int y) -> float& {
         return values[size_t(y) * size_t(size.x) + size_t(x)];
@@ -21,7 +22,7 @@ std::vector<float> environment_cells(shading::Textures const& textures,
     for (int y = 0; y < size.y; ++y)
         for (int x = 0; x < size.x; ++x) {
             Vec2 const uv((float(x) + 0.5f) / float(size.x), (float(y) + 0.5f) / float(size.y));
-            at(x, y) = luminance(textures.radiance(input, uv));
+            at(x, y) = luminance(textures.radiance(input, uv) * tint);
         }
     for (int y = 0; y < size.y; ++y)
         for (int x = 0; x < size.x; ++x) {
@@ -51,13 +52,15 @@ void WorldBuilder::add_light(scene::EnvironmentLight const& light, SourceLocatio
                              LightList& list) {
     prepare_environment(light, where);
     Affine const to_world = rotation_of(light.transform);
+    Color const tint = scene::scale_of(light.color, light.unit);
     Vec2i const size =
         light.texture.texture ? world_.textures_.resolution(light.texture.texture) : Vec2i(1, 1);
-    auto const cells = environment_cells(world_.textures_, light.texture, size);
+    auto const cells = environment_cells(world_.textures_, light.texture, tint, size);
     lights::EnvironmentSampler sampler(cells, uint32_t(size.x), uint32_t(size.y));
     float const power = list.cross_section * sampler.total();
-    list.add(EnvironmentLight{light.texture, to_world, to_world.inverse(), std::move(sampler)},
-             at_infinity(), power, light.controls);
+    list.add(
+        EnvironmentLight{light.texture, to_world, to_world.inverse(), std::move(sampler), tint},
+        at_infinity(), power, light.controls);
 }
 
 } // namespace weft::world

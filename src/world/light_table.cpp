@@ -28,14 +28,40 @@ LightSample from_delta(lights::DeltaLightSample const& s) {
 
 } // namespace
 
-LightSample LightTable::sample_light(lights::PointLight const& l, Vec3 const& ref, Vec2) const {
-    return from_delta(l.sample(ref));
+void LightTable::commit_lamps(RTCDevice device) {
+    std::vector<LampScene::Ball> balls;
+    for (size_t i = 0; i < lights_.size(); ++i)
+        if (auto const* lamp = std::get_if<Lamp>(&lights_[i].kind); lamp && lamp->luminaire.ball)
+            balls.push_back({lamp->luminaire.position(), lamp->luminaire.radius, int32_t(i)});
+    if (!balls.empty()) lamps_ = std::make_unique<LampScene>(device, std::move(balls));
 }
+
+Color LightTable::gobo(Lamp const& lamp, Vec3 const& d) const {
+    if (!lamp.gobo) return Color(1);
+    auto const& [projection, texture] = *lamp.gobo;
+    if (!(dot(projection.frame.n, d) > 0)) return Color(0);
+    return textures_->radiance(texture, projection.uv(d));
+}
+
+LightSample LightTable::sample_light(Lamp const& l, Vec3 const& ref, Vec2 u) const {
+    if (!l.luminaire.ball) {
+        lights::DeltaLightSample s =
+            match(l.luminaire.source, [&](auto const& source) { return source.sample(ref); });
+        if (l.gobo && s.distance > 0) s.irradiance *= gobo(l, -s.wi);
+        return from_delta(s);
+    }
+    lights::EmitterSample const s = l.luminaire.ball->sample(ref, u);
+    LightSample sample;
+    if (!(s.pdf > 0)) return sample;
+    sample.wi = s.wi;
+    sample.distance = s.distance;
+    sample.radiance = radiance(l, -s.wi);
+    sample.pdf = s.pdf;
+    return sample;
+}
+
 LightSample LightTable::sample_light(lights::DirectionalLight const& l, Vec3 const& ref,
                                      Vec2) const {
-    return from_delta(l.sample(ref));
-}
-LightSample LightTable::sample_light(lights::SpotLight const& l, Vec3 const& ref, Vec2) const {
     return from_delta(l.sample(ref));
 }
 
@@ -68,14 +94,15 @@ LightSample LightTable::sample_light(EnvironmentLight const& l, Vec3 const&, Vec
     LightSample sample;
     sample.wi = normalize(l.to_world.vector(s.direction));
     sample.distance = kInfinity;
-    sample.radiance = textures_->radiance(l.texture, s.uv);
+    sample.radiance = textures_->radiance(l.texture, s.uv) * l.tint;
     sample.pdf = s.pdf;
     return sample;
 }
 
 LightTable::Found LightTable::found_at(EnvironmentLight const& l, Vec3 const& d) const {
     Vec3 const local = normalize(l.to_map.vector(d));
-    return {textures_->radiance(l.texture, lights::direction_to_uv(local)), l.sampler.pdf(local)};
+    return {textures_->radiance(l.texture, lights::direction_to_uv(local)) * l.tint,
+            l.sampler.pdf(local)};
 }
 
 LightSample LightTable::sample_light(lights::SunDisk const& l, Vec3 const&, Vec2 u) const {

@@ -1,6 +1,8 @@
 // All lights of a world, and how one is chosen and sampled.
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -10,9 +12,11 @@
 #include "lights/emitter_geometry.h"
 #include "lights/environment.h"
 #include "lights/light_tree.h"
+#include "lights/luminaire.h"
 #include "lights/sun_disk.h"
 #include "scene/scene.h"
 #include "shading/textures.h"
+#include "world/lamp_scene.h"
 #include "world/light_rules.h"
 
 namespace weft::world {
@@ -30,19 +34,33 @@ struct AreaLight {
     bool uv_alone = true;     ///< emission and alpha depend on uv alone
 };
 
+/// An image in front of a spot, black outside of its unit square.
+struct Gobo {
+    lights::GoboProjection projection;
+    scene::Input<Color> texture;
+};
+
+/// A point or a ball that shines.
+struct Lamp {
+    lights::Luminaire luminaire;
+    std::optional<Gobo> gobo;
+};
+
 struct EnvironmentLight {
     scene::Input<Color> texture;
     Affine to_world, to_map; ///< rotations; scale is ignored
     lights::EnvironmentSampler sampler;
+    Color tint{1}; ///< a factor on the texture
 };
 
-using LightKind = std::variant<lights::PointLight, lights::DirectionalLight, lights::SpotLight,
-                               AreaLight, EnvironmentLight, lights::SunDisk>;
+using LightKind =
+    std::variant<Lamp, lights::DirectionalLight, AreaLight, EnvironmentLight, lights::SunDisk>;
 
 struct Light {
     LightKind kind;
     scene::LightControls controls;
     LightRules rules;
+    bool hidden_from_camera = false; ///< seen by bounced rays alone
 };
 
 struct LightSample {
@@ -66,6 +84,8 @@ class LightTable {
 
     size_t size() const { return lights_.size(); }
     Light const& operator[](int32_t i) const { return lights_[size_t(i)]; }
+    /// Makes the lamps that have a size known to rays.
+    void commit_lamps(RTCDevice device);
     /// Whether no light is ever sampled.
     bool empty() const { return tree_.empty(); }
     /// A light and a point on it, to illuminate `ref` with normal `n` (0 in a medium).
@@ -86,6 +106,21 @@ class LightTable {
         }
     }
 
+    /// Radiance of all lamps that the ray meets before its t_max, each with the density with which
+    /// `sample` at `ref`, a point on the ray's line, gives its direction: calls f(light, p,
+    /// radiance, pdf) with the point where it is met.
+    template <class F>
+    void lamps(Ray const& ray, Vec3 const& ref, Vec3 const& n, F&& f) const {
+        if (!lamps_) return;
+        lamps_->each(ray, ref, [&](LampScene::Meeting const& met) {
+            auto const& lamp = std::get<Lamp>(lights_[size_t(met.light)].kind);
+            Vec3 const p = ray.origin + ray.direction * met.t;
+            float const pdf = tree_.probability(ref, n, uint32_t(met.light)) *
+                              lamp.luminaire.ball->pdf(ref, p, met.n);
+            f(met.light, p, radiance(lamp, -ray.direction), pdf);
+        });
+    }
+
   private:
     /// What a ray that leaves the scene finds of a light.
     struct Found {
@@ -98,15 +133,20 @@ class LightTable {
     Found found_at(Other const&, Vec3 const&) const {
         return {};
     }
-    LightSample sample_light(lights::PointLight const& l, Vec3 const& ref, Vec2 u) const;
+    /// What the lamp's image lets through along `d`, away from it.
+    Color gobo(Lamp const& lamp, Vec3 const& d) const;
+    Color radiance(Lamp const& lamp, Vec3 const& d) const {
+        return lamp.luminaire.radiance(d) * gobo(lamp, d);
+    }
+    LightSample sample_light(Lamp const& l, Vec3 const& ref, Vec2 u) const;
     LightSample sample_light(lights::DirectionalLight const& l, Vec3 const& ref, Vec2 u) const;
-    LightSample sample_light(lights::SpotLight const& l, Vec3 const& ref, Vec2 u) const;
     LightSample sample_light(AreaLight const& l, Vec3 const& ref, Vec2 u) const;
     LightSample sample_light(EnvironmentLight const& l, Vec3 const& ref, Vec2 u) const;
     LightSample sample_light(lights::SunDisk const& l, Vec3 const& ref, Vec2 u) const;
 
     std::vector<Light> lights_;
     std::vector<int32_t> environments_; ///< lights that rays meet infinitely far away
+    std::unique_ptr<LampScene> lamps_;  ///< null: no lamp has a size
     lights::LightTree tree_;
     World const* world_ = nullptr;
     shading::Textures const* textures_ = nullptr; ///< of the world

@@ -20,7 +20,7 @@ struct LightList {
 
     /// `power`: the luminance of what it emits in all.
     void add(LightKind kind, lights::LightBounds where_it_is, float power,
-             scene::LightControls const& controls);
+             scene::LightControls const& controls, bool hidden_from_camera = false);
 };
 
 /// The bounds of what shines from infinitely far away.
@@ -83,10 +83,18 @@ class WorldBuilder {
     void link_lights(LightList& list);
     /// Radiance averaged over the surface, roughly, for judging a light's power.
     float mean_luminance(AreaLight const& light) const;
+    /// A light's brightness, at least 0. Throws InputError where it varies.
+    Color brightness(scene::Input<Color> const& input, std::string const& title);
+    /// The gobo of a spot, if there is one, and how much it lets through: the mean, weighted by
+    /// what the spot sends there.
+    std::pair<std::optional<Gobo>, float> make_gobo(scene::SpotLight const& light,
+                                                    lights::SpotLight const& spot);
+    void add_lamp(Lamp lamp, float power, scene::LightControls const& controls, LightList& list);
     void prepare_environment(scene::EnvironmentLight const& light, SourceLocation const& where);
     void add_light(scene::PointLight const&, SourceLocation const&, LightList&);
     void add_light(scene::DirectionalLight const&, SourceLocation const&, LightList&);
     void add_light(scene::SpotLight const&, SourceLocation const&, LightList&);
+    void add_light(scene::IesLight const&, SourceLocation const&, LightList&);
     void add_light(scene::EnvironmentLight const&, SourceLocation const&, LightList&);
     void add_area_lights(LightList& list);
     void count();
