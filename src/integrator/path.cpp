@@ -27,12 +27,34 @@ void add_emission(world::World const& world, PathSettings const& settings, PathS
                 sink);
 }
 
+/// Lamps of some size that the ray meets before `limit`, seen through the medium that it is in:
+/// wherever the path scatters in it, their light in this direction is the same. The camera looks
+/// through lamps.
+void add_lamps(world::World const& world, PathSettings const& settings, PathState const& path,
+               float limit, film::SampleSink& sink) {
+    if (path.signature.length() == 0) return;
+    world::Ray ray = path.ray;
+    ray.t_max = std::min(limit, path.ray.t_max);
+    int32_t const medium = path.media.current().medium;
+    world.lights().lamps(
+        ray, path.p, path.n, [&](int32_t light, Vec3 const& p, Color const& radiance, float pdf) {
+            float const light_pdf = path.pdf > 0 ? pdf : 0;
+            float const weight = found_weight(settings.strategy, path, light_pdf) *
+                                 found_factor(world, settings, path, light, length(p - path.p));
+            Color value = path.throughput * radiance * weight;
+            if (medium >= 0)
+                value *= media::transmittance(world.medium(medium), length(p - path.ray.origin));
+            add_clamped(settings, {value, light, path.signature}, sink);
+        });
+}
+
 /// Light from infinitely far away along a ray that met nothing.
 void add_background(world::World const& world, PathSettings const& settings, PathState const& path,
                     film::SampleSink& sink) {
     Color seen;
     world.lights().environment(
         path.p, path.n, path.ray.direction, [&](int32_t light, Color const& radiance, float pdf) {
+            if (path.signature.length() == 0 && world.lights()[light].hidden_from_camera) return;
             seen += radiance;
             float const weight = found_weight(settings.strategy, path, pdf) *
                                  found_factor(world, settings, path, light, kInfinity);
@@ -152,6 +174,7 @@ void trace_path(world::World const& world, PathSettings const& settings, world::
         uint32_t const alpha_seed =
             world.has_alpha() ? u.walk(Dimension::Alpha, step).next_uint() : 0;
         world::Hit const hit = world.intersect(path.ray, alpha_seed);
+        add_lamps(world, settings, path, hit.t, sink);
 
         if (fly(world, path, hit.t, u, step)) {
             if (vertex == settings.depth) return;

@@ -13,7 +13,6 @@ namespace weft::io::gltf {
 namespace {
 
 constexpr int kHeight = 720; ///< of pictures whose size the file does not say
-constexpr double kLumensPerWatt = 683;
 
 double degrees(double radians) { return radians * 180 / double(kPi); }
 
@@ -81,7 +80,8 @@ scene::Camera read_camera(Object& camera, Affined const& to_world) {
 scene::Light read_light(Object& light, Affined const& to_world) {
     Report& report = light.report();
     std::string const type = light.text("type");
-    float const intensity = float(light.number("intensity", 1, kNotNegative) / kLumensPerWatt);
+    float const intensity =
+        float(light.number("intensity", 1, kNotNegative) / double(scene::kLumensPerWatt));
     Color const color = light.color("color", Color(1), kNotNegative) * intensity;
     if (light.has("range")) {
         light.ignore("range");
@@ -91,11 +91,11 @@ scene::Light read_light(Object& light, Affined const& to_world) {
     auto shines = [&] { return Vec3(pose(to_world, report.at(light.path())).z); };
     scene::Light result;
     if (type == "point") {
-        result = scene::PointLight{.position = position, .power = color * (4 * kPi)};
+        result = scene::PointLight{.position = position, .power = {color * (4 * kPi)}};
     } else if (type == "directional") {
-        result = scene::DirectionalLight{.direction = -shines(), .intensity = color};
+        result = scene::DirectionalLight{.direction = -shines(), .intensity = {color}};
     } else if (type == "spot") {
-        scene::SpotLight spot{.position = position, .direction = shines(), .intensity = color};
+        scene::SpotLight spot{.position = position, .direction = shines(), .intensity = {color}};
         Json const defaults = Json::object();
         Object cone =
             light.object("spot").value_or(Object(report, defaults, light.path_of("spot")));
@@ -162,15 +162,18 @@ bool light_a_room(scene::Scene const& scene, std::vector<scene::LightId> const& 
     };
     double irradiance = 0;
     for (scene::LightId id : lamps)
-        irradiance += match(
-            scene.lights[size_t(id.index)],
-            Overloaded{
-                [&](scene::PointLight const& l) {
-                    return at_center(l.power * (1 / (4 * kPi)), l.position);
-                },
-                [&](scene::SpotLight const& l) { return at_center(l.intensity, l.position); },
-                [](scene::DirectionalLight const& l) { return double(max_component(l.intensity)); },
-                [](auto const&) { return 0.; }});
+        irradiance +=
+            match(scene.lights[size_t(id.index)],
+                  Overloaded{[&](scene::PointLight const& l) {
+                                 return at_center(l.power.value * (1 / (4 * kPi)), l.position);
+                             },
+                             [&](scene::SpotLight const& l) {
+                                 return at_center(l.intensity.value, l.position);
+                             },
+                             [](scene::DirectionalLight const& l) {
+                                 return double(max_component(l.intensity.value));
+                             },
+                             [](auto const&) { return 0.; }});
     return irradiance >= 0.1;
 }
 

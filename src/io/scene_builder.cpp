@@ -5,6 +5,7 @@
 
 #include "io/append.h"
 #include "io/gltf.h"
+#include "io/ies.h"
 #include "io/obj.h"
 #include "io/object_reader_impl.h"
 #include "io/ply.h"
@@ -85,11 +86,29 @@ void check_group(std::string const& group, XmlElement const& element) {
                              " expects letters, digits, _ and -, found " + in_quotes(group));
 }
 
-void check_direction(Vec3 const& direction, XmlElement const& element) {
+void check_direction(Vec3 const& direction, XmlElement const& element,
+                     std::string const& name = "direction") {
     if (!(length_squared(Vec3d(direction)) > 0))
-        throw InputError(location_of(element, "direction"),
-                         "'direction' of " + element_title(element) +
+        throw InputError(location_of(element, name),
+                         "'" + name + "' of " + element_title(element) +
                              " expects a direction, found a vector of length 0");
+}
+
+/// Of two ways to say how bright a light is, `usual` has a default that the other, where it is
+/// given, takes the place of.
+void choose_brightness(scene::Input<Color>& usual, std::string const& usual_name,
+                       scene::Input<Color> const& other, std::string const& other_name,
+                       XmlElement const& element) {
+    scene::Input<Color> const none{Color(0)};
+    auto is_given = [&](std::string const& name) {
+        return &location_of(element, name) != &element.where;
+    };
+    if (!is_given(other_name)) return;
+    if (!is_given(usual_name)) usual = none;
+    if (usual != none && other != none)
+        throw InputError(location_of(element, other_name), element_title(element) + " expects '" +
+                                                               usual_name + "' or '" + other_name +
+                                                               "', found both");
 }
 
 } // namespace
@@ -329,8 +348,37 @@ void SceneBuilder::complete(scene::DirectionalLight& light, XmlElement const& el
     check_direction(light.direction, element);
 }
 
+void SceneBuilder::complete(scene::PointLight& light, XmlElement const& element) {
+    choose_brightness(light.power, "power", light.intensity, "intensity", element);
+}
+
 void SceneBuilder::complete(scene::SpotLight& light, XmlElement const& element) {
     check_direction(light.direction, element);
+    check_direction(light.up, element, "up");
+    choose_brightness(light.intensity, "intensity", light.power, "power", element);
+    float const outer = light.angle + light.falloff;
+    if (light.gobo.texture && !(outer < 180))
+        throw InputError(location_of(element, "gobo"),
+                         "'gobo' of " + element_title(element) +
+                             " expects an angle and falloff of less than 180 together, found " +
+                             schema::number_text(outer));
+    if (light.power != scene::Input<Color>{Color(0)} && !(outer > 0))
+        throw InputError(location_of(element, "power"),
+                         "'power' of " + element_title(element) +
+                             " expects an angle and falloff of more than 0 together, found 0");
+}
+
+void SceneBuilder::complete(scene::IesLight& light, XmlElement const& element) {
+    check_direction(light.direction, element);
+    check_direction(light.c0, element, "c0");
+    SourceLocation const& where = location_of(element, "filename");
+    std::string const path = existing_file(element.folder, light.filename.path, where);
+    if (files_ != Files::read) return;
+    auto& lamp = document_.photometries[path];
+    if (!lamp)
+        lamp = std::make_shared<scene::Photometry const>(
+            read_at(where, [&] { return read_ies(path); }));
+    light.filename.resource = index_of(scene_.photometries, lamp);
 }
 
 void SceneBuilder::complete(scene::AreaLight& light, XmlElement const& element) {

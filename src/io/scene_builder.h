@@ -18,9 +18,10 @@ namespace weft::io {
 struct Document {
     std::unique_ptr<XmlElement> root;
     std::multimap<std::string, XmlElement const*, std::less<>> ids;
-    std::map<std::string, std::shared_ptr<scene::Mesh const>> meshes; ///< by path
-    std::shared_ptr<image::TextureCache> textures;                    ///< the images among them
-    std::set<XmlElement const*> used; ///< the elements that became objects
+    std::map<std::string, std::shared_ptr<scene::Mesh const>> meshes;             ///< by path
+    std::map<std::string, std::shared_ptr<scene::Photometry const>> photometries; ///< likewise
+    std::shared_ptr<image::TextureCache> textures; ///< the images among them
+    std::set<XmlElement const*> used;              ///< the elements that became objects
     std::vector<std::string> warnings;
 };
 
@@ -96,8 +97,10 @@ class SceneBuilder {
     void complete(scene::ThinLens& camera, XmlElement const& element);
     void complete(scene::MeshShape& mesh, XmlElement const& element);
     void complete(scene::Group& group, XmlElement const& element);
+    void complete(scene::PointLight& light, XmlElement const& element);
     void complete(scene::DirectionalLight& light, XmlElement const& element);
     void complete(scene::SpotLight& light, XmlElement const& element);
+    void complete(scene::IesLight& light, XmlElement const& element);
     void complete(scene::AreaLight& light, XmlElement const& element);
     void complete(scene::SkyLight& light, XmlElement const& element);
     void complete(scene::Portal& portal, XmlElement const& element);

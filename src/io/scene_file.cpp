@@ -186,7 +186,7 @@ SceneFile read_document(std::unique_ptr<XmlElement> root, std::vector<std::strin
                         std::shared_ptr<image::TextureCache> textures) {
     if (!textures) textures = std::make_shared<image::TextureCache>();
     for (std::string const& o : overrides) apply_override(*root, o);
-    Document document{std::move(root), {}, {}, textures, {}, {}};
+    Document document{std::move(root), {}, {}, {}, textures, {}, {}};
     index_ids(document);
     JobReader reader(document);
     SceneFile file;

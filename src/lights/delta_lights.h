@@ -1,5 +1,5 @@
 // Lights that shine from one point or in one direction, and so are met by no ray: they need no
-// density and no MIS.
+// density and no MIS. luminaire.h gives those at a point a size.
 #pragma once
 
 #include <numbers>
@@ -27,6 +27,8 @@ struct PointLight {
         return {d * (1 / distance), distance, intensity * (1 / d2)};
     }
     Color power() const { return intensity * (4 * kPi); }
+    /// Share of the intensity that leaves along `d`.
+    float attenuation(Vec3 const&) const { return 1; }
 };
 
 /// Parallel light from infinitely far away.
@@ -39,33 +41,46 @@ struct DirectionalLight {
     Color power(float scene_radius) const { return irradiance * (kPi * square(scene_radius)); }
 };
 
-/// A point light that shines into a cone: full intensity up to angle / 2 from the axis, from
-/// there falling to 0 at (angle + falloff) / 2, linearly in the angle.
+/// A point light that shines into a cone: full intensity up to angle / 2 from the axis, from there
+/// falling to 0 at (angle + falloff) / 2. Linearly in the angle; or as a smoothstep in its cosine
+/// (pbrt-v4's SpotLight, Pharr, Jakob and Humphreys 2023, 12.2.1; Cycles' `blend` likewise), where
+/// an outer cone of more than a full turn ends at the full turn.
 struct SpotLight {
     Vec3 position{0, 0, 0};
     Vec3 axis{0, 0, 1};    ///< unit, the way the light shines
     Color intensity{1};    ///< power per solid angle on the axis
     float angle = kPi / 4; ///< full opening angle of the bright cone, radians in [0, 2 pi]
     float falloff = 0;     ///< how much wider the dark edge is, full angle in radians, >= 0
+    bool smooth = false;   ///< a smoothstep rather than a line
 
     /// Share of the intensity that leaves along `d` (any length but 0), in [0, 1].
     float attenuation(Vec3 const& d) const {
         // atan2 rather than acos: narrow spots live where the cosine has no digits left.
-        float const beyond = std::atan2(length(cross(axis, d)), dot(axis, d)) - 0.5f * angle;
+        float const theta = std::atan2(length(cross(axis, d)), dot(axis, d));
+        float const beyond = theta - 0.5f * angle;
         if (beyond <= 0) return 1;
-        return std::max(0.f, 1 - 2 * beyond / falloff);
+        if (!smooth) return std::max(0.f, 1 - 2 * beyond / falloff);
+        float const outer = std::min(0.5f * (angle + falloff), kPi);
+        if (theta >= outer) return 0;
+        // (cos theta - cos outer) / (cos inner - cos outer), as products for the same reason.
+        float const t =
+            std::sin(0.5f * (outer + theta)) * std::sin(0.5f * (outer - theta)) /
+            (std::sin(0.5f * (outer + 0.5f * angle)) * std::sin(0.5f * (outer - 0.5f * angle)));
+        return std::min(t * t * (3 - 2 * t), 1.f);
     }
     DeltaLightSample sample(Vec3 const& ref) const {
         DeltaLightSample s = PointLight{position, intensity}.sample(ref);
         if (s.distance > 0) s.irradiance *= attenuation(-s.wi);
         return s;
     }
-    /// 2 pi I (1 - (sin b - sin a) / (b - a)) for the half angles a and b of the two cones.
+    /// Linear: 2 pi I (1 - (sin b - sin a) / (b - a)) for the half angles a and b of the two cones.
+    /// Smooth: 2 pi I (1 - (cos a + cos b) / 2), as a smoothstep is 1/2 in the mean.
     Color power() const {
         double const pi = std::numbers::pi;
         double const a = std::min(0.5 * angle, pi);
         double const b = std::max(a, std::min(0.5 * (double(angle) + falloff), pi));
-        if (b - a < 1e-6) return intensity * float(2 * pi * (1 - std::cos(a)));
+        if (smooth || b - a < 1e-6)
+            return intensity * float(2 * pi * (1 - 0.5 * (std::cos(a) + std::cos(b))));
         // Where the outer cone is wider than everything, the ramp stops at pi above 0.
         double const end = std::max(0.0, 0.5 * (double(angle) + falloff) - pi) / (0.5 * falloff);
         double const mean_cos = (std::sin(b) - std::sin(a)) / (b - a);

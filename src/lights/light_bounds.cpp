@@ -50,6 +50,33 @@ LightBounds bounds_of(SpotLight const& light) {
     return b;
 }
 
+LightBounds bounds_of(PhotometricLight const& light) {
+    LightBounds b{light.position, light.position, light.frame.n};
+    // A cone around straight down or straight up, whichever holds all light in less.
+    scene::Photometry const& lamp = *light.lamp;
+    size_t const count = lamp.vertical.size();
+    size_t first = count, last = 0; // angles that are not dark, and the dark ones beside them
+    for (size_t i = 0; i < lamp.candela.size(); ++i) {
+        if (!(lamp.candela[i] > 0)) continue;
+        size_t const v = i % count;
+        first = std::min(first, v > 0 ? v - 1 : v);
+        last = std::max(last, std::min(v + 1, count - 1));
+    }
+    if (first == count) return b; // all dark
+    float const down = radians(lamp.vertical[last]), up = kPi - radians(lamp.vertical[first]);
+    if (up < down) b.axis = -b.axis;
+    b.theta_o = std::clamp(std::min(up, down), 0.f, kPi);
+    b.theta_e = 0;
+    return b;
+}
+
+LightBounds bounds_of(Luminaire const& lamp) {
+    LightBounds b = match(lamp.source, [](auto const& source) { return bounds_of(source); });
+    b.low -= Vec3(lamp.radius);
+    b.high += Vec3(lamp.radius);
+    return b;
+}
+
 LightBounds bounds_of(RectangleEmitter const& emitter, uint32_t) {
     auto const [low, high] = emitter.box();
     return {low, high, emitter.normal(), 0};

@@ -11,6 +11,7 @@
 
 #include "lights/delta_lights.h"
 #include "lights/emitter_geometry.h"
+#include "lights/luminaire.h"
 
 namespace weft::lights {
 
@@ -30,6 +31,8 @@ struct LightBounds {
 /// Boxes and directions; `power` is 0, for the caller to set.
 LightBounds bounds_of(PointLight const& light);
 LightBounds bounds_of(SpotLight const& light);
+LightBounds bounds_of(PhotometricLight const& light);
+LightBounds bounds_of(Luminaire const& lamp);
 LightBounds bounds_of(RectangleEmitter const& emitter, uint32_t primitive = 0);
 LightBounds bounds_of(SphereEmitter const& emitter, uint32_t primitive = 0);
 LightBounds bounds_of(DiskEmitter const& emitter, uint32_t primitive = 0);

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "scene/light_color.h"
 #include "scene/light_controls.h"
 
 namespace weft::scene {
@@ -40,6 +41,8 @@ struct EnvironmentLight {
     Input<Color> texture{Color(1)};
     Affined transform;
     std::vector<PortalId> portals;
+    LightUnit unit = LightUnit::radiometric;
+    LightColor color;
     LightControls controls;
 
     template <class F>
@@ -49,6 +52,8 @@ struct EnvironmentLight {
           {.help =
                "From the map's space to the world: turns and mirrors the map; unequal scales and "
                "shear stretch it, as if painted on a far sphere. The rest does nothing."});
+        f("unit", unit, kLightUnitAttr);
+        f.group(color);
         f("portal", portals, kPortalAttr);
         f.group(controls);
     }

@@ -1,21 +1,35 @@
-// Lights. light_controls.h has what all of them share.
+// Lights. light_controls.h and light_color.h have what all of them share.
 #pragma once
 
+#include <array>
 #include <string_view>
 #include <variant>
 
 #include "scene/environment_light.h"
+#include "scene/light_color.h"
 #include "scene/sky_light.h"
 
 namespace weft::scene {
 
+/// How lamps describe their `radius`.
+inline constexpr schema::Attr kLampRadiusAttr{
+    .unit = "scene",
+    .min = 0,
+    .help = "Of the ball that shines, for soft shadows and highlights; it blocks no light, and its "
+            "power does not depend on it. 0 is a point."};
+
 struct PointLight {
-    static constexpr schema::TypeInfo info{.category = "light",
-                                           .type = "point",
-                                           .help =
-                                               "Shines evenly in all directions from one point."};
+    static constexpr schema::TypeInfo info{
+        .category = "light",
+        .type = "point",
+        .help = "Shines evenly in all directions from one point or, with a radius, a ball. The "
+                "camera does not see the ball; mirrors do."};
     Vec3 position{0, 0, 0};
-    Color power{1};
+    Input<Color> power{Color(1)};
+    Input<Color> intensity{Color(0)};
+    float radius = 0;
+    LightUnit unit = LightUnit::radiometric;
+    LightColor color;
     LightControls controls;
 
     template <class F>
@@ -25,16 +39,26 @@ struct PointLight {
           {.unit = "W",
            .min = 0,
            .help = "Radiant flux; the radiant intensity is power / (4 pi)."});
+        f("intensity", intensity,
+          {.unit = "W/sr", .min = 0, .help = "Radiant intensity, instead of `power`."});
+        f("radius", radius, kLampRadiusAttr);
+        f("unit", unit, kLightUnitAttr);
+        f.group(color);
         f.group(controls);
     }
 };
 
 struct DirectionalLight {
-    static constexpr schema::TypeInfo info{.category = "light",
-                                           .type = "directional",
-                                           .help = "Parallel light from infinitely far away."};
+    static constexpr schema::TypeInfo info{
+        .category = "light",
+        .type = "directional",
+        .help = "Parallel light from infinitely far away or, with an angle, a disk there. The "
+                "camera does not see the disk; mirrors do."};
     Vec3 direction{0, 0, 1};
-    Color intensity{1};
+    Input<Color> intensity{Color(1)};
+    float angle = 0;
+    LightUnit unit = LightUnit::radiometric;
+    LightColor color;
     LightControls controls;
 
     template <class F>
@@ -42,18 +66,43 @@ struct DirectionalLight {
         f("direction", direction, {.help = "Points towards the light."});
         f("intensity", intensity,
           {.unit = "W/m^2", .min = 0, .help = "Irradiance on a surface that faces it."});
+        f("angle", angle,
+          {.unit = "deg",
+           .min = 0,
+           .max = 180,
+           .soft_max = 10,
+           .help = "Full angle of the disk, which makes shadows soft: the sun's is 0.53. It has "
+                   "the same irradiance whatever its angle."});
+        f("unit", unit, kLightUnitAttr);
+        f.group(color);
         f.group(controls);
     }
 };
 
+/// Between the bright cone and the dark.
+enum class Falloff { linear, smooth };
+constexpr auto choices(Falloff) { return std::array<std::string_view, 2>{"linear", "smooth"}; }
+
 struct SpotLight {
     static constexpr schema::TypeInfo info{
-        .category = "light", .type = "spot", .help = "A cone of light from one point."};
+        .category = "light",
+        .type = "spot",
+        .help = "A cone of light from one point or, with a radius, a ball; it can project an "
+                "image. The camera does not see the ball; mirrors do.",
+        .example = "<light type=\"spot\" position=\"0,3,0\" direction=\"0,-1,0\" angle=\"20\" "
+                   "falloff=\"20\" falloffShape=\"smooth\" power=\"800\" unit=\"photometric\"/>"};
     Vec3 position{0, 0, 0};
     Vec3 direction{0, 0, 1};
-    Color intensity{1};
+    Input<Color> intensity{Color(1)};
+    Input<Color> power{Color(0)};
     float angle = 40;
     float falloff = 10;
+    Falloff falloff_shape = Falloff::linear;
+    Input<Color> gobo{Color(1)};
+    Vec3 up{0, 1, 0};
+    float radius = 0;
+    LightUnit unit = LightUnit::radiometric;
+    LightColor color;
     LightControls controls;
 
     template <class F>
@@ -62,6 +111,11 @@ struct SpotLight {
         f("direction", direction, {.help = "Where it shines."});
         f("intensity", intensity,
           {.unit = "W/sr", .min = 0, .help = "Radiant intensity on the axis."});
+        f("power", power,
+          {.unit = "W",
+           .min = 0,
+           .help = "Radiant flux of the whole cone, instead of `intensity`: narrower cones are "
+                   "brighter."});
         f("angle", angle,
           {.unit = "deg",
            .min = 0,
@@ -71,7 +125,56 @@ struct SpotLight {
           {.unit = "deg",
            .min = 0,
            .max = 360,
-           .help = "Full angle by which the outer cone is wider; linear in the angle between."});
+           .help = "Full angle by which the outer cone, beyond which it is dark, is wider."});
+        f("falloffShape", falloff_shape,
+          {.help = "From the inner cone to the outer: linear in the angle, or smooth at both ends "
+                   "(a smoothstep in the cosine, as pbrt and Cycles have it)."});
+        f("gobo", gobo,
+          {.min = 0,
+           .help = "An image in front of the lamp, a factor on its light: over the square around "
+                   "the outer cone, which must be narrower than 180 degrees."});
+        f("up", up,
+          {.help = "Where the upper edge of the `gobo` points; a direction along the light's own "
+                   "counts as 0,0,1."});
+        f("radius", radius, kLampRadiusAttr);
+        f("unit", unit, kLightUnitAttr);
+        f.group(color);
+        f.group(controls);
+    }
+};
+
+struct IesLight {
+    static constexpr schema::TypeInfo info{
+        .category = "light",
+        .type = "ies",
+        .help = "A real lamp, as measured by its maker: the light's distribution and brightness "
+                "come from an IES file (LM-63). The camera does not see it; with a radius, mirrors "
+                "do.",
+        .example = "<light type=\"ies\" filename=\"downlight.ies\" position=\"0,2.5,0\" "
+                   "temperature=\"3000\"/>"};
+    FileName filename;
+    Vec3 position{0, 0, 0};
+    Vec3 direction{0, -1, 0};
+    Vec3 c0{1, 0, 0};
+    Input<Color> tint{Color(1)};
+    float radius = 0;
+    LightColor color;
+    LightControls controls;
+
+    template <class F>
+    constexpr void describe(F&& f) {
+        f("filename", filename,
+          {.required = true, .help = "The .ies file; relative to the scene file."});
+        f("position", position, {.unit = "scene", .help = "Where it is."});
+        f("direction", direction,
+          {.help = "Where the file's vertical angle 0, straight down, points to."});
+        f("c0", c0,
+          {.help = "Where the file's half plane of horizontal angle 0 points to; a direction along "
+                   "the light's own counts as 0,0,1."});
+        f("tint", tint,
+          {.min = 0, .help = "A factor on the file's candela, of which 683 are 1 W/sr."});
+        f("radius", radius, kLampRadiusAttr);
+        f.group(color);
         f.group(controls);
     }
 };
@@ -84,6 +187,7 @@ struct AreaLight {
                                                "It is part of the scene: do not list it again."};
     InstanceId instance;
     float power = 0;
+    LightUnit unit = LightUnit::radiometric;
     float spread = 180;
     LightControls controls;
 
@@ -97,6 +201,8 @@ struct AreaLight {
            .help = "Radiant flux of the whole surface: the emission then says only its colour and "
                    "pattern, and is scaled so that the luminance of what leaves is that of a white "
                    "light of this power. 0: the emission is the radiance."});
+        f("unit", unit,
+          {.help = "What the power is given in: radiometric (W) or photometric (lm)."});
         f("spread", spread,
           {.unit = "deg",
            .min = 0.1,
@@ -108,7 +214,7 @@ struct AreaLight {
     }
 };
 
-using Light = std::variant<PointLight, DirectionalLight, SpotLight, EnvironmentLight, SkyLight,
-                           AreaLight>;
+using Light = std::variant<PointLight, DirectionalLight, SpotLight, IesLight, EnvironmentLight,
+                           SkyLight, AreaLight>;
 
 } // namespace weft::scene

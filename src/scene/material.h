@@ -8,6 +8,7 @@
 #include "scene/disney.h"
 #include "scene/handles.h"
 #include "scene/layered_materials.h"
+#include "scene/light_color.h"
 #include "scene/scattering_materials.h"
 #include "schema/describe.h"
 
@@ -184,10 +185,14 @@ struct LambertianEmission {
         .type = "lambertian",
         .help = "Emits the same radiance in all directions, from the front side only."};
     Input<Color> emission{Color(1)};
+    LightUnit unit = LightUnit::radiometric;
+    LightColor color;
 
     template <class F>
     constexpr void describe(F&& f) {
         f("emission", emission, {.unit = "W/(m^2 sr)", .min = 0, .help = "Radiance."});
+        f("unit", unit, kLightUnitAttr);
+        f.group(color);
     }
 };
 

@@ -12,6 +12,7 @@
 #include "scene/light.h"
 #include "scene/material.h"
 #include "scene/mesh.h"
+#include "scene/photometry.h"
 #include "scene/render_settings.h"
 #include "scene/shape.h"
 #include "scene/texture.h"
@@ -63,6 +64,7 @@ struct Scene {
     /// What files hold; shared, since several scenes of one document may use them.
     std::vector<std::shared_ptr<Mesh const>> meshes;
     std::vector<std::shared_ptr<image::Texture const>> images;
+    std::vector<std::shared_ptr<Photometry const>> photometries;
     /// What file names with <UDIM> stand for: their `resource` is an index into this.
     std::vector<std::vector<UdimTile>> udims;
 

@@ -9,11 +9,11 @@
 
 namespace weft::shading {
 
-/// The light a surface emits: the product of what an `emission` or a material says, and `scale`.
+/// The light a surface emits: the product of what an `emission` or a material says, and a tint.
 struct Emission {
     scene::Input<Color> color{Color(0)};
     scene::Input<float> strength{1};
-    float scale = 1; ///< of a light that was told its power
+    Color tint{1}; ///< a factor on it
     explicit operator bool() const { return color != scene::Input<Color>{Color(0)}; }
 };
 
@@ -64,7 +64,7 @@ class Textures {
     }
     template <class Place>
     Color radiance(Emission const& e, Place const& place) const {
-        return radiance(e.color, place) * (e.scale * std::max(at(e.strength, place), 0.f));
+        return radiance(e.color, place) * e.tint * std::max(at(e.strength, place), 0.f);
     }
     /// In 0 .. 1.
     template <class Place>

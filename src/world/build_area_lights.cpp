@@ -177,12 +177,16 @@ void WorldBuilder::add_area_lights(LightList& list) {
             flux.push_back(surveyor.flux());
             for (float f : flux.back()) sum += double(f);
         }
-        float const scale = from.power > 0 && sum > 0 ? float(double(from.power) / sum) : 1;
+        float const power = from.unit == scene::LightUnit::photometric
+                                ? from.power / scene::kLumensPerWatt
+                                : from.power;
+        float const scale = power > 0 && sum > 0 ? float(double(power) / sum) : 1;
         for (size_t i = 0; i < made.size(); ++i) {
             Object& object = world_.objects_[made[i].object];
             object.light = int32_t(list.lights.size());
             object.spread = made[i].spread;
-            object.emission.scale = made[i].emission.scale = scale;
+            made[i].emission.tint *= scale;
+            object.emission.tint = made[i].emission.tint;
             std::vector<lights::LightBounds> leaves;
             match(made[i].emitter, [&](auto const& e) {
                 for (uint32_t k = 0; k < e.primitives(); ++k) {

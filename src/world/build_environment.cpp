@@ -26,7 +26,7 @@ scene::ImageTexture const* plain_image(scene::Scene const& scene, scene::Input<C
 /// Networks are looked up at four places per texel; as something may be between them, and larger
 /// images are taken as networks, everything else is sampled a little as well.
 Grid brightness(shading::Textures const& textures, scene::Scene const& scene,
-                scene::Input<Color> const& map) {
+                scene::Input<Color> const& map, Color const& tint) {
     Vec2i size = map.texture ? textures.resolution(map.texture) : Vec2i(1, 1);
     scene::ImageTexture const* image = plain_image(scene, map);
     bool const exact = !map.texture || (image && size.x <= kMostColumns);
@@ -46,14 +46,14 @@ Grid brightness(shading::Textures const& textures, scene::Scene const& scene,
             Vec2 const uv = grid.uv(x, y);
             float& value = grid.values[size_t(y) * grid.width + x];
             if (exact) {
-                value = luminance(textures.radiance(map, uv));
+                value = luminance(textures.radiance(map, uv) * tint);
                 continue;
             }
             for (int k = 0; k < 4 * step * step; ++k) {
                 Vec2 at(float(k % (2 * step)) + 0.5f, float(k / (2 * step)) + 0.5f);
                 at = uv + half_cell * (at / float(step) - Vec2(1));
                 at.y = std::clamp(at.y, 0.f, 1.f);
-                value += luminance(textures.radiance(map, at)) / float(4 * step * step);
+                value += luminance(textures.radiance(map, at) * tint) / float(4 * step * step);
             }
             sum += double(value);
         }
@@ -148,10 +148,12 @@ void WorldBuilder::add_environment(EnvironmentLight light, std::span<scene::Port
 void WorldBuilder::add_light(scene::EnvironmentLight const& light, SourceLocation const& where,
                              LightList& list) {
     prepare_environment(light, where);
-    lights::EnvironmentSampler sampler(brightness(world_.textures_, scene_, light.texture),
+    Color const tint = scene::scale_of(light.color, light.unit);
+    lights::EnvironmentSampler sampler(brightness(world_.textures_, scene_, light.texture, tint),
                                        is_compensated(light.controls));
-    add_environment({light.texture, directions_of(light.transform), {}, std::move(sampler), {}},
-                    light.portals, light.controls, list);
+    add_environment(
+        {light.texture, directions_of(light.transform), {}, std::move(sampler), {}, 0, tint},
+        light.portals, light.controls, list);
 }
 
 void WorldBuilder::add_light(scene::SkyLight const& light, SourceLocation const&, LightList& list) {

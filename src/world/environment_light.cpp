@@ -11,11 +11,12 @@ float cubed(float x) { return x * x * x; }
 } // namespace
 
 Color EnvironmentLight::radiance(shading::Textures const& textures, Vec2 uv) const {
-    return match(map,
-                 Overloaded{
-                     [&](scene::Input<Color> const& input) { return textures.radiance(input, uv); },
-                     [&](lights::SkyTable const& sky) { return sky.at(uv); },
-                 });
+    return match(map, Overloaded{
+                          [&](scene::Input<Color> const& input) {
+                              return textures.radiance(input, uv) * tint;
+                          },
+                          [&](lights::SkyTable const& sky) { return sky.at(uv); },
+                      });
 }
 
 Color EnvironmentLight::radiance(shading::Textures const& textures, Vec3 const& d) const {

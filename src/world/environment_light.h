@@ -29,6 +29,7 @@ struct EnvironmentLight {
     lights::EnvironmentSampler sampler;
     lights::PortalSampler portals;
     float whole = 0; ///< the part of samples that is not sent through portals where they are seen
+    Color tint{1};   ///< a factor on an input
 
     /// At lat-long coordinates.
     Color radiance(shading::Textures const& textures, Vec2 uv) const;

@@ -33,7 +33,7 @@ class LightLints {
 
     std::vector<std::string> all() {
         for (size_t i = 0; i < world_.lights().size(); ++i) {
-            Light const& light = world_.lights().light(i);
+            Light const& light = world_.lights()[int32_t(i)];
             if (light.controls.weight == 0) continue; // on purpose
             look_at_power(light);
             look_around(light);
@@ -85,7 +85,8 @@ void LightLints::look_at_power(Light const& light) {
         return;
     }
     bool const infinite = std::holds_alternative<EnvironmentLight>(light.kind) ||
-                          std::holds_alternative<lights::DirectionalLight>(light.kind);
+                          std::holds_alternative<lights::DirectionalLight>(light.kind) ||
+                          std::holds_alternative<lights::SunDisk>(light.kind);
     double const section = kPi * std::max(radius_ * radius_, 1e-12);
     double const irradiance = double(light.power) / (infinite ? section : 4 * section);
     if (irradiance < kManySuns * kSun) return;
@@ -171,9 +172,8 @@ void LightLints::look_around(Light const& light) {
                            }
                        });
                    },
-                   [&](auto const& l) {
-                       if constexpr (requires { l.position; }) points.push_back(l.position);
-                   },
+                   [&](Lamp const& l) { points.push_back(l.luminaire.position()); },
+                   [](auto const&) {},
                },
                light.kind);
     uint32_t found = UINT32_MAX;
@@ -194,13 +194,13 @@ void LightLints::look_at_mirrors() {
     size_t point_light = world_.lights().size();
     for (size_t i = world_.lights().size(); i-- > 0;)
         std::visit(Overloaded{
-                       [](AreaLight const&) {},
-                       [](EnvironmentLight const&) {},
-                       [&](auto const& l) {
-                           if constexpr (requires { l.sample(Vec3()).irradiance; }) point_light = i;
+                       [&](Lamp const& l) {
+                           if (!l.luminaire.ball) point_light = i;
                        },
+                       [&](lights::DirectionalLight const&) { point_light = i; },
+                       [](auto const&) {},
                    },
-                   world_.lights().light(i).kind);
+                   world_.lights()[int32_t(i)].kind);
     if (point_light == world_.lights().size()) return;
     constexpr int side = 48, picks = 8;
     std::map<uint32_t, int> seen; // object -> rays that meet it as a mirror
@@ -227,7 +227,7 @@ void LightLints::look_at_mirrors() {
     if (most == seen.end() || most->second * 200 < side * side) return; // half a percent
     warn(fmt::format("{} has no size, so the mirrors and clear glass of the picture (such as {}) "
                      "neither show it nor pass its light on: use an area light, or some roughness",
-                     name_of(world_.lights().light(point_light)), name_of(most->first)));
+                     name_of(world_.lights()[int32_t(point_light)]), name_of(most->first)));
 }
 
 } // namespace

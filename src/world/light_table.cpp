@@ -8,10 +8,14 @@
 namespace weft::world {
 
 void LightList::add(LightKind kind, std::span<lights::LightBounds const> leaves,
-                    scene::LightControls const& controls) {
+                    scene::LightControls const& controls, bool hidden_from_camera) {
     lights::LightBounds const all = leaves.empty() ? lights::LightBounds() : lights::unite(leaves);
-    lights.push_back(
-        {std::move(kind), controls, {controls, all, all.power, cross_section}, source, all.power});
+    lights.push_back({std::move(kind),
+                      controls,
+                      {controls, all, all.power, cross_section},
+                      source,
+                      all.power,
+                      hidden_from_camera});
     first_leaf.push_back(uint32_t(bounds.size()));
     for (lights::LightBounds const& leaf : leaves) {
         bounds.push_back(leaf);
@@ -66,15 +70,39 @@ LightSample from_infinity(Sample const& s) {
 
 } // namespace
 
-LightSample LightTable::sample_light(lights::PointLight const& l, Vec3 const& ref, Vec2,
-                                     uint32_t) const {
-    return from_delta(l.sample(ref));
+void LightTable::commit_lamps(RTCDevice device) {
+    std::vector<LampScene::Ball> balls;
+    for (size_t i = 0; i < lights_.size(); ++i)
+        if (auto const* lamp = std::get_if<Lamp>(&lights_[i].kind); lamp && lamp->luminaire.ball)
+            balls.push_back({lamp->luminaire.position(), lamp->luminaire.radius, int32_t(i)});
+    if (!balls.empty()) lamps_ = std::make_unique<LampScene>(device, std::move(balls));
 }
+
+Color LightTable::gobo(Lamp const& lamp, Vec3 const& d) const {
+    if (!lamp.gobo) return Color(1);
+    auto const& [projection, texture] = *lamp.gobo;
+    if (!(dot(projection.frame.n, d) > 0)) return Color(0);
+    return textures_->radiance(texture, projection.uv(d));
+}
+
+LightSample LightTable::sample_light(Lamp const& l, Vec3 const& ref, Vec2 u, uint32_t) const {
+    if (!l.luminaire.ball) {
+        lights::DeltaLightSample s =
+            match(l.luminaire.source, [&](auto const& source) { return source.sample(ref); });
+        if (l.gobo && s.distance > 0) s.irradiance *= gobo(l, -s.wi);
+        return from_delta(s);
+    }
+    lights::EmitterSample const s = l.luminaire.ball->sample(ref, u);
+    LightSample sample;
+    if (!(s.pdf > 0)) return sample;
+    sample.wi = s.wi;
+    sample.distance = s.distance;
+    sample.radiance = radiance(l, -s.wi);
+    sample.pdf = s.pdf;
+    return sample;
+}
+
 LightSample LightTable::sample_light(lights::DirectionalLight const& l, Vec3 const& ref, Vec2,
-                                     uint32_t) const {
-    return from_delta(l.sample(ref));
-}
-LightSample LightTable::sample_light(lights::SpotLight const& l, Vec3 const& ref, Vec2,
                                      uint32_t) const {
     return from_delta(l.sample(ref));
 }
@@ -121,7 +149,8 @@ LightTable::Found LightTable::found_at(EnvironmentLight const& l, Vec3 const& re
     return {s.radiance, s.pdf};
 }
 
-LightSample LightTable::sample_light(lights::SunDisk const& l, Vec3 const&, Vec2 u, uint32_t) const {
+LightSample LightTable::sample_light(lights::SunDisk const& l, Vec3 const&, Vec2 u,
+                                     uint32_t) const {
     return from_infinity(l.sample(u));
 }
 

@@ -1,6 +1,7 @@
 // All lights of a world, and how one is chosen and sampled.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <variant>
 #include <vector>
@@ -10,11 +11,13 @@
 #include "lights/emitter_geometry.h"
 #include "lights/emitter_texture.h"
 #include "lights/light_tree.h"
+#include "lights/luminaire.h"
 #include "lights/spread.h"
 #include "lights/sun_disk.h"
 #include "scene/scene.h"
 #include "shading/textures.h"
 #include "world/environment_light.h"
+#include "world/lamp_scene.h"
 #include "world/light_rules.h"
 
 namespace weft::world {
@@ -34,15 +37,28 @@ struct AreaLight {
     bool uv_alone = true;                          ///< emission and alpha depend on uv alone
 };
 
-using LightKind = std::variant<lights::PointLight, lights::DirectionalLight, lights::SpotLight,
-                               AreaLight, EnvironmentLight, lights::SunDisk>;
+/// An image in front of a spot, black outside of its unit square.
+struct Gobo {
+    lights::GoboProjection projection;
+    scene::Input<Color> texture;
+};
+
+/// A point or a ball that shines.
+struct Lamp {
+    lights::Luminaire luminaire;
+    std::optional<Gobo> gobo;
+};
+
+using LightKind =
+    std::variant<Lamp, lights::DirectionalLight, AreaLight, EnvironmentLight, lights::SunDisk>;
 
 struct Light {
     LightKind kind;
     scene::LightControls controls;
     LightRules rules;
-    int32_t source = -1; ///< of the scene's lights, for messages
-    float power = 0;     ///< luminance of all that it emits
+    int32_t source = -1;             ///< of the scene's lights, for messages
+    float power = 0;                 ///< luminance of all that it emits
+    bool hidden_from_camera = false; ///< seen by bounced rays alone
 };
 
 struct LightSample {
@@ -67,12 +83,12 @@ struct LightList {
 
     /// `leaves`: their powers are the luminance of what each emits in all.
     void add(LightKind kind, std::span<lights::LightBounds const> leaves,
-             scene::LightControls const& controls);
+             scene::LightControls const& controls, bool hidden_from_camera = false);
     /// A light of one leaf.
     void add(LightKind kind, lights::LightBounds where, float power,
-             scene::LightControls const& controls) {
+             scene::LightControls const& controls, bool hidden_from_camera = false) {
         where.power = power;
-        add(std::move(kind), std::span(&where, 1), controls);
+        add(std::move(kind), std::span(&where, 1), controls, hidden_from_camera);
     }
 };
 
@@ -84,6 +100,8 @@ class LightTable {
 
     size_t size() const { return lights_.size(); }
     Light const& operator[](int32_t i) const { return lights_[size_t(i)]; }
+    /// Makes the lamps that have a size known to rays.
+    void commit_lamps(RTCDevice device);
     /// Whether no light is ever sampled.
     bool empty() const { return tree_.empty(); }
     /// A light and a point on it, to illuminate `ref` with normal `n` (0 in a medium).
@@ -100,13 +118,27 @@ class LightTable {
         for (int32_t i : environments_) {
             Found const found = match(lights_[size_t(i)].kind,
                                       [&](auto const& light) { return found_at(light, ref, d); });
-            f(i, found.radiance,
-              tree_.probability(ref, n, first_leaf_[size_t(i)]) * found.pdf);
+            f(i, found.radiance, tree_.probability(ref, n, first_leaf_[size_t(i)]) * found.pdf);
         }
     }
 
     /// What choosing among the lights takes, in bytes.
     size_t memory_bytes() const;
+
+    /// Radiance of all lamps that the ray meets before its t_max, each with the density with which
+    /// `sample` at `ref`, a point on the ray's line, gives its direction: calls f(light, p,
+    /// radiance, pdf) with the point where it is met.
+    template <class F>
+    void lamps(Ray const& ray, Vec3 const& ref, Vec3 const& n, F&& f) const {
+        if (!lamps_) return;
+        lamps_->each(ray, ref, [&](LampScene::Meeting const& met) {
+            auto const& lamp = std::get<Lamp>(lights_[size_t(met.light)].kind);
+            Vec3 const p = ray.origin + ray.direction * met.t;
+            float const pdf = tree_.probability(ref, n, first_leaf_[size_t(met.light)]) *
+                              lamp.luminaire.ball->pdf(ref, p, met.n);
+            f(met.light, p, radiance(lamp, -ray.direction), pdf);
+        });
+    }
 
   private:
     /// What a ray that leaves the scene finds of a light.
@@ -120,10 +152,14 @@ class LightTable {
     Found found_at(Other const&, Vec3 const&, Vec3 const&) const {
         return {};
     }
-    LightSample sample_light(lights::PointLight const&, Vec3 const& ref, Vec2, uint32_t) const;
+    /// What the lamp's image lets through along `d`, away from it.
+    Color gobo(Lamp const& lamp, Vec3 const& d) const;
+    Color radiance(Lamp const& lamp, Vec3 const& d) const {
+        return lamp.luminaire.radiance(d) * gobo(lamp, d);
+    }
+    LightSample sample_light(Lamp const&, Vec3 const& ref, Vec2 u, uint32_t) const;
     LightSample sample_light(lights::DirectionalLight const&, Vec3 const& ref, Vec2,
                              uint32_t) const;
-    LightSample sample_light(lights::SpotLight const&, Vec3 const& ref, Vec2, uint32_t) const;
     LightSample sample_light(AreaLight const&, Vec3 const& ref, Vec2 u, uint32_t part) const;
     LightSample sample_light(EnvironmentLight const&, Vec3 const& ref, Vec2 u, uint32_t) const;
     LightSample sample_light(lights::SunDisk const&, Vec3 const&, Vec2 u, uint32_t) const;
@@ -132,6 +168,7 @@ class LightTable {
     std::vector<uint32_t> first_leaf_;    ///< of the tree, per light
     std::vector<uint32_t> light_of_leaf_; ///< empty where each light has one leaf
     std::vector<int32_t> environments_;   ///< lights that rays meet infinitely far away
+    std::unique_ptr<LampScene> lamps_;    ///< null: no lamp has a size
     lights::LightTree tree_;
     World const* world_ = nullptr;
     shading::Textures const* textures_ = nullptr; ///< of the world

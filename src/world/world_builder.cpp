@@ -140,8 +140,11 @@ void WorldBuilder::add_instance(int32_t index, Inherited const& outer) {
 void WorldBuilder::add_object(scene::Shape const& shape, int32_t instance, Inherited const& given) {
     Object object;
     object.material = given.material;
-    if (given.emission)
-        object.emission.color = scene_.emissions[size_t(given.emission.index)].emission;
+    if (given.emission) {
+        auto const& emission = scene_.emissions[size_t(given.emission.index)];
+        object.emission.color = emission.emission;
+        object.emission.tint = scene::scale_of(emission.color, emission.unit);
+    }
     object.normal_map = given.normal_map;
     object.opacity.instance = given.alpha;
     object.priority = given.priority;

@@ -71,10 +71,18 @@ class WorldBuilder {
     RayMask shadow_mask(Links const& links) const;
     void link_lights(LightList& list);
     AreaLight make_area_light(uint32_t object, scene::AreaLight const& from) const;
+    /// A light's brightness, at least 0. Throws InputError where it varies.
+    Color brightness(scene::Input<Color> const& input, std::string const& title);
+    /// The gobo of a spot, if there is one, and how much it lets through: the mean, weighted by
+    /// what the spot sends there.
+    std::pair<std::optional<Gobo>, float> make_gobo(scene::SpotLight const& light,
+                                                    lights::SpotLight const& spot);
+    void add_lamp(Lamp lamp, float power, scene::LightControls const& controls, LightList& list);
     void prepare_environment(scene::EnvironmentLight const& light, SourceLocation const& where);
     void add_light(scene::PointLight const&, SourceLocation const&, LightList&);
     void add_light(scene::DirectionalLight const&, SourceLocation const&, LightList&);
     void add_light(scene::SpotLight const&, SourceLocation const&, LightList&);
+    void add_light(scene::IesLight const&, SourceLocation const&, LightList&);
     void add_light(scene::EnvironmentLight const&, SourceLocation const&, LightList&);
     void add_light(scene::SkyLight const&, SourceLocation const&, LightList&);
     /// Whether rays find what sampling of the light leaves.

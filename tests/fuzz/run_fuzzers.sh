@@ -22,7 +22,7 @@ cmake --preset fuzz -B "$build" -DCMAKE_CXX_COMPILER="$compiler" >"$scratch/log"
     { cat "$scratch/log"; exit 1; }
 cmake --build "$build" --target fuzzers >"$scratch/log" 2>&1 || { cat "$scratch/log"; exit 1; }
 
-for kind in scene ply gltf; do
+for kind in scene ply gltf ies; do
     # New inputs go to the scratch folder; a crashing one is kept in the build folder.
     mkdir "$scratch/$kind"
     "$build/fuzz_$kind" -max_total_time="${FUZZ_SECONDS:-10}" -max_len=4096 -timeout=10 \

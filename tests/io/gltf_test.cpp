@@ -173,11 +173,11 @@ TEST(Gltf, LampsArePhotometric) {
         {"type":"spot","intensity":683,"spot":{"innerConeAngle":0.2,"outerConeAngle":0.3}}]}})"));
     ASSERT_EQ(l.contents.lights.size(), 3u);
     auto const& point = std::get<scene::PointLight>(l.scene.lights[0]);
-    EXPECT_NEAR(point.power.r, 4 * kPi, 1e-5); // 683 cd are 1 W/sr
-    EXPECT_NEAR(point.power.g, 2 * kPi, 1e-5);
+    EXPECT_NEAR(point.power.value.r, 4 * kPi, 1e-5); // 683 cd are 1 W/sr
+    EXPECT_NEAR(point.power.value.g, 2 * kPi, 1e-5);
     EXPECT_EQ(point.position, Vec3(1, 2, 3));
     auto const& sun = std::get<scene::DirectionalLight>(l.scene.lights[1]);
-    EXPECT_NEAR(sun.intensity.r, 2, 1e-6);
+    EXPECT_NEAR(sun.intensity.value.r, 2, 1e-6);
     expect_near(Vec3d(sun.direction), {0, 0, 1}); // towards the lamp, which shines along -z
     auto const& spot = std::get<scene::SpotLight>(l.scene.lights[2]);
     EXPECT_NEAR(spot.angle, degrees(0.4f), 1e-4);

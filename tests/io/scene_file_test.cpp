@@ -79,7 +79,7 @@ TEST(SceneFile, AttributesAndChildTagsAreEqual) {
         "<light type='point'><vector name='position' value='1, 2 3'/><color name='power' "
         "value='4,4,4'/><float name='weight' value='5e-1'/></light>");
     EXPECT_EQ(a.position, Vec3(1, 2, 3));
-    EXPECT_EQ(a.power, Color(4));
+    EXPECT_EQ(a.power.value, Color(4));
     EXPECT_EQ(a.controls.weight, 0.5f);
     EXPECT_EQ(a.position, b.position);
     EXPECT_EQ(a.power, b.power);
@@ -221,7 +221,7 @@ TEST(SceneFile, OverridesSetParameters) {
         "<bsdf type='diffuse'><texture name='albedo' type='checkerboard'/>"
         "</bsdf></instance>";
     auto power = [](scene::Scene const& s, size_t i) {
-        return std::get<scene::PointLight>(s.lights[i]).power;
+        return std::get<scene::PointLight>(s.lights[i]).power.value;
     };
     auto const one =
         parse_inner(inner, {"lamp.power=7", "camera.fov=30.5", "ball.bsdf.albedo=0.5"});
