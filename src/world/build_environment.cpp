@@ -25,7 +25,7 @@ scene::ImageTexture const* plain_image(scene::Scene const& scene, scene::Input<C
 /// How bright `map` is, as far as sampling wants to know. An image alone is known texel by texel.
 /// Networks are looked up at four places per texel; as something may be between them, and larger
 /// images are taken as networks, everything else is sampled a little as well.
-Grid brightness(shading::Textures const& textures, scene::Scene const& scene,
+Grid brightness_of(shading::Textures const& textures, scene::Scene const& scene,
                 scene::Input<Color> const& map, Color const& tint) {
     Vec2i size = map.texture ? textures.resolution(map.texture) : Vec2i(1, 1);
     scene::ImageTexture const* image = plain_image(scene, map);
@@ -65,7 +65,7 @@ Grid brightness(shading::Textures const& textures, scene::Scene const& scene,
 /// A sky, texel by texel, without noise around the sun: half a degree is finer than it varies.
 constexpr Vec2i kSkySize(768, 384);
 
-Grid brightness(lights::SkyTable const& sky) {
+Grid brightness_of(lights::SkyTable const& sky) {
     Grid grid{Grid::Filter::bilinear, uint32_t(sky.width), uint32_t(sky.height), {}};
     for (uint32_t y = 0; y < grid.rows(); ++y)
         for (uint32_t x = 0; x < grid.width; ++x)
@@ -131,14 +131,14 @@ void WorldBuilder::add_environment(EnvironmentLight light, std::span<scene::Port
                                    scene::LightControls const& controls, LightList& list) {
     light.to_map = light.to_world.inverse();
     std::vector<lights::PortalMap> maps;
-    auto const brightness_of = [&](Vec3 const& d) {
+    auto const brightness_at = [&](Vec3 const& d) {
         return luminance(light.radiance(world_.textures_, d));
     };
     float const even = kEvenPortalPart * light.sampler.total() / (4 * kPi);
     uint32_t const lookups = std::min(light.sampler.columns() / (2 * kPortalCells) + 1, 8u);
     for (scene::PortalId id : portals)
         maps.emplace_back(portal_of(scene_.portals[size_t(id.index)]), kPortalCells, lookups, even,
-                          brightness_of);
+                          brightness_at);
     light.portals = lights::PortalSampler(std::move(maps));
     light.whole = is_compensated(controls) ? 0 : kWholePart;
     float const power = list.cross_section * light.sampler.total();
@@ -149,7 +149,7 @@ void WorldBuilder::add_light(scene::EnvironmentLight const& light, SourceLocatio
                              LightList& list) {
     prepare_environment(light, where);
     Color const tint = scene::scale_of(light.color, light.unit);
-    lights::EnvironmentSampler sampler(brightness(world_.textures_, scene_, light.texture, tint),
+    lights::EnvironmentSampler sampler(brightness_of(world_.textures_, scene_, light.texture, tint),
                                        is_compensated(light.controls));
     add_environment(
         {light.texture, directions_of(light.transform), {}, std::move(sampler), {}, 0, tint},
@@ -161,7 +161,7 @@ void WorldBuilder::add_light(scene::SkyLight const& light, SourceLocation const&
     lights::SkyTable table = lights::make_sky_table(
         {sun, light.turbidity, light.ground, light.sky_intensity, light.sun_intensity}, kSkySize.x,
         kSkySize.y);
-    lights::EnvironmentSampler sampler(brightness(table), is_compensated(light.controls));
+    lights::EnvironmentSampler sampler(brightness_of(table), is_compensated(light.controls));
     Affine const to_world = directions_of(light.transform);
     add_environment({std::move(table), to_world, {}, std::move(sampler), {}}, light.portals,
                     light.controls, list);
