@@ -43,7 +43,7 @@ std::string light_text(world::World const& world, PathEvent const& e) {
     int32_t object = e.object;
     for (uint32_t i = 0; object < 0 && e.light >= 0 && i < world.statistics().objects; ++i)
         if (world.object(i).light == e.light) object = int32_t(i);
-    std::string const group = e.light >= 0 ? world.lights().controls(size_t(e.light)).group : "";
+    std::string const group = e.light >= 0 ? world.lights()[e.light].controls.group : "";
     return (e.light >= 0 ? fmt::format("light {}", e.light) : "an emission that is no light") +
            (object >= 0 ? " on '" + object_name(world, uint32_t(object)) + "'" : "") +
            (group.empty() ? "" : " of the group '" + group + "'");
