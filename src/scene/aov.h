@@ -90,7 +90,7 @@ inline constexpr std::array<AovInfo, 29> kAovs{{
     {"sample_count", "sample_count", "How many samples the pixel has."},
     {"variance", "variance.R ...",
      "Estimated variance of the beauty: of the pixel's mean, not of one sample."},
-    {"removed", "removed.R ...", "Light that `indirectClamp` took out of the beauty."},
+    {"removed", "removed.R ...", "Light that clamping took out of the beauty."},
 }};
 
 constexpr auto choices(Aov) {

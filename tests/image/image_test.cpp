@@ -164,7 +164,7 @@ TEST_F(ImageFiles, ExrHeadersPlaceAndDescribe) {
     header.full_width = 200;
     header.full_height = 150;
     Image const image = noise(90, 75, 3); // more than one strip of lines
-    write_exr(path("a.exr"), image, header);
+    write_described_exr(path("a.exr"), image, header);
     EXPECT_EQ(read_image(path("a.exr")).pixels, image.pixels);
     EXPECT_EQ(read_metadata(path("a.exr")).at("weft:camera"), header.texts.at("weft:camera"));
     auto const input = OIIO::ImageInput::open(path("a.exr"));
