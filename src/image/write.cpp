@@ -163,11 +163,12 @@ void write_exr(std::string const& path, int width, int height, std::span<Channel
                Metadata const& metadata, Precision precision) {
     ExrHeader header;
     header.texts = metadata;
-    write_exr(path, width, height, channels, header, precision);
+    write_described_exr(path, width, height, channels, header, precision);
 }
 
-void write_exr(std::string const& path, int width, int height, std::span<Channel const> channels,
-               ExrHeader const& header, Precision precision) {
+void write_described_exr(std::string const& path, int width, int height,
+                         std::span<Channel const> channels, ExrHeader const& header,
+                         Precision precision) {
     require_extension(path, ".exr");
     OIIO::ImageSpec spec(width, height, int(channels.size()),
                          precision == Precision::half ? OIIO::TypeDesc::HALF
@@ -202,11 +203,11 @@ void write_exr(std::string const& path, Image const& image, Metadata const& meta
                Precision precision) {
     ExrHeader header;
     header.texts = metadata;
-    write_exr(path, image, header, precision);
+    write_described_exr(path, image, header, precision);
 }
 
-void write_exr(std::string const& path, Image const& image, ExrHeader const& header,
-               Precision precision) {
+void write_described_exr(std::string const& path, Image const& image, ExrHeader const& header,
+                         Precision precision) {
     assert(is_whole(image));
     std::vector<std::string> const names = channel_names(image);
     if (names.size() != size_t(image.channels))
@@ -215,7 +216,7 @@ void write_exr(std::string const& path, Image const& image, ExrHeader const& hea
     std::vector<Channel> channels;
     for (size_t c = 0; c < names.size(); ++c)
         channels.push_back({names[c], image.pixels.data() + c, names.size()});
-    write_exr(path, image.width, image.height, channels, header, precision);
+    write_described_exr(path, image.width, image.height, channels, header, precision);
 }
 
 void write_png(std::string const& path, Image const& image, Metadata const& metadata) {

@@ -45,15 +45,16 @@ struct ExrHeader {
 void write_exr(std::string const& path, int width, int height, std::span<Channel const> channels,
                Metadata const& metadata = {}, Precision precision = Precision::float32);
 
-void write_exr(std::string const& path, int width, int height, std::span<Channel const> channels,
-               ExrHeader const& header, Precision precision = Precision::float32);
+void write_described_exr(std::string const& path, int width, int height,
+                         std::span<Channel const> channels, ExrHeader const& header,
+                         Precision precision = Precision::float32);
 
 /// The same for an interleaved image, its channels named by `names` or else Y, YA, RGB, RGBA
 /// by their number; more than four must be named.
 void write_exr(std::string const& path, Image const& image, Metadata const& metadata = {},
                Precision precision = Precision::float32);
-void write_exr(std::string const& path, Image const& image, ExrHeader const& header,
-               Precision precision = Precision::float32);
+void write_described_exr(std::string const& path, Image const& image, ExrHeader const& header,
+                         Precision precision = Precision::float32);
 
 /// An 8-bit PNG of a linear image with 1 to 4 channels: clipped to [0, 1], encoded as sRGB and
 /// rounded; not-a-number is 0. Alpha is linear; colours, premultiplied in `image`, are divided by

@@ -150,7 +150,8 @@ film::Layout make_layout(io::RenderJob const& job, RenderOptions const& options,
 void check_memory(film::Region const& region, film::Layout const& layout,
                   SourceLocation const& where) {
     double const needed = double(region.width()) * region.height() *
-                          double(film::Film::bytes_per_pixel(layout) + 3 * sizeof(float));
+                          double(film::Film::bytes_per_pixel(layout) +
+                                 (3 + layout.channel_names().size()) * sizeof(float));
     double const there = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE));
     auto const gib = [](double bytes) { return std::to_string(int64_t(bytes / (1 << 30))); };
     if (there > 0 && needed > there)

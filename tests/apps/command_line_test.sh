@@ -53,6 +53,38 @@ expect 2 "$weft" render s.xml -o crop.exr --crop 10,5,90,25
 expect 0 "$weft" render s.xml -o small.exr --size 50%
 expect 2 "$weft" render s.xml -o small.exr --size 0x3
 
+# AOVs go into the EXR file, which says how it was made; a PNG takes beauty alone.
+expect 0 "$weft" render s.xml -o layers.exr -o layers.png --aov albedo,depth --aov crypto_object
+expect 0 "$weft" render s.xml -o plain.exr
+if cmp -s layers.exr plain.exr; then fail "no layers were written"; fi
+for word in albedo.R CryptoObject02.A cryptomatte/3ae39a5/manifest weft:sceneHash \
+    weft:renderSeconds weft:camera chromaticities; do
+    grep -aq "$word" layers.exr || fail "layers.exr has no $word"
+done
+expect 0 "$weft" compare layers.png layers.png
+expect 0 env SOURCE_DATE_EPOCH=0 "$weft" render s.xml -o same1.exr --threads 1
+expect 0 env SOURCE_DATE_EPOCH=0 "$weft" render s.xml -o same2.exr --tile 7
+cmp -s same1.exr same2.exr || fail "equal input gave other bytes"
+expect 2 "$weft" render s.xml -o layers.exr --aov albido
+has "did you mean 'albedo'?" err
+expect 2 "$weft" render s.xml -o layers.png --aov albedo
+has "expects an output that can hold further channels" err
+expect 0 "$weft" render --aov list
+has "CryptoObject00.R" out
+expect 0 "$weft" help aov
+has "denoise_albedo" out
+expect 2 "$weft" render
+expect 0 "$weft" render s.xml -o layers.exr --set integrator.aovs=uv,normal
+grep -aq UV.U layers.exr || fail "the scene's AOVs are not written"
+
+# One path again.
+expect 0 "$weft" replay s.xml --pixel 20,15 --sample 1 --seed 2
+has "camera at" out
+expect 2 "$weft" replay s.xml --pixel 2000,15
+has "expects a pixel inside of the picture" err
+expect 2 "$weft" replay s.xml --pixel 1.5,2
+expect 2 "$weft" replay s.xml
+
 # --set, by tag and by id.
 expect 0 "$weft" render s.xml -o e.exr --set camera.fov=20 --set cam.width=41
 expect 2 "$weft" render s.xml -o f.exr --set camera.fow=20

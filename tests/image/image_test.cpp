@@ -4,6 +4,7 @@
 #include "image/image.h"
 #include "image/write.h"
 
+#include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -151,6 +152,36 @@ TEST_F(ImageFiles, MetadataComesBack) {
             EXPECT_EQ(back.at(key), value);
         }
     }
+}
+
+TEST_F(ImageFiles, ExrHeadersPlaceAndDescribe) {
+    ExrHeader header;
+    header.texts = {{"weft:camera", "<camera type=\"thinlens\"/>"}};
+    header.chromaticities = kRec709;
+    header.world_to_camera = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 2, 3, 4, 1};
+    header.x = 30;
+    header.y = 70;
+    header.full_width = 200;
+    header.full_height = 150;
+    Image const image = noise(90, 75, 3); // more than one strip of lines
+    write_described_exr(path("a.exr"), image, header);
+    EXPECT_EQ(read_image(path("a.exr")).pixels, image.pixels);
+    EXPECT_EQ(read_metadata(path("a.exr")).at("weft:camera"), header.texts.at("weft:camera"));
+    auto const input = OIIO::ImageInput::open(path("a.exr"));
+    ASSERT_TRUE(input);
+    OIIO::ImageSpec const& spec = input->spec();
+    EXPECT_EQ(spec.x, 30);
+    EXPECT_EQ(spec.y, 70);
+    EXPECT_EQ(spec.width, 90);
+    EXPECT_EQ(spec.full_x, 0);
+    EXPECT_EQ(spec.full_width, 200);
+    EXPECT_EQ(spec.full_height, 150);
+    auto const* const colors = spec.find_attribute("chromaticities");
+    ASSERT_TRUE(colors && colors->type().basevalues() == 8);
+    EXPECT_EQ(colors->get_float_indexed(2), 0.30f);
+    auto const* const matrix = spec.find_attribute("worldtocamera");
+    ASSERT_TRUE(matrix);
+    EXPECT_EQ(matrix->get_float_indexed(13), 3);
 }
 
 TEST_F(ImageFiles, EqualInputGivesEqualBytes) {

@@ -128,6 +128,21 @@ TEST(Aovs, ComponentsAndLightGroupsAddUpToBeauty) {
         }
 }
 
+TEST(Aovs, RemovedIsWhatClampingTook) {
+    std::string const contents = kCamera + kScenes.at("glass and a medium inside");
+    Channels const whole(render_aovs(contents, {}).film);
+    Channels const cut(
+        render_aovs(contents, {Aov::removed}, 16, "type=\"path\" depth=\"8\" indirectClamp=\"0.2\"")
+            .film);
+    double removed = 0;
+    for (size_t i = 0; i < whole.size(); ++i) {
+        removed += double(cut.at("removed.G", i));
+        EXPECT_NEAR(cut.at("G", i) + cut.at("removed.G", i), whole.at("G", i),
+                    1e-5f * std::max(whole.at("G", i), 1.f));
+    }
+    EXPECT_GT(removed / double(whole.size()), 0.001);
+}
+
 TEST(Aovs, LeaveTheBeautyAlone) {
     std::vector<Aov> all;
     for (size_t i = 0; i < film::kAovCount; ++i) all.push_back(Aov(i));

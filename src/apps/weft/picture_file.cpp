@@ -78,8 +78,8 @@ image::Image select(image::Image const& image, std::vector<std::string> const& n
 void write_picture(std::string const& path, session::RenderResult const& result,
                    io::RenderJob const& job, world::World const& world, uint32_t seed) {
     if (std::filesystem::path(path).extension() == ".exr")
-        image::write_exr(path, result.film.image(),
-                         make_header(result, *job.scene, world.camera().size(), seed));
+        image::write_described_exr(path, result.film.image(),
+                                   make_header(result, *job.scene, world.camera().size(), seed));
     else if (result.film.layout().has(film::Aov::alpha))
         image::write_image(path, select(result.film.image(), {"R", "G", "B", "A"}),
                            metadata(result, seed));
