@@ -33,7 +33,7 @@ class LightLints {
 
     std::vector<std::string> all() {
         for (size_t i = 0; i < world_.lights().size(); ++i) {
-            Light const& light = world_.lights().light(i);
+            Light const& light = world_.lights()[int32_t(i)];
             if (light.controls.weight == 0) continue; // on purpose
             look_at_power(light);
             look_around(light);
@@ -200,7 +200,7 @@ void LightLints::look_at_mirrors() {
                            if constexpr (requires { l.sample(Vec3()).irradiance; }) point_light = i;
                        },
                    },
-                   world_.lights().light(i).kind);
+                   world_.lights()[int32_t(i)].kind);
     if (point_light == world_.lights().size()) return;
     constexpr int side = 48, picks = 8;
     std::map<uint32_t, int> seen; // object -> rays that meet it as a mirror
@@ -227,7 +227,7 @@ void LightLints::look_at_mirrors() {
     if (most == seen.end() || most->second * 200 < side * side) return; // half a percent
     warn(fmt::format("{} has no size, so the mirrors and clear glass of the picture (such as {}) "
                      "neither show it nor pass its light on: use an area light, or some roughness",
-                     name_of(world_.lights().light(point_light)), name_of(most->first)));
+                     name_of(world_.lights()[int32_t(point_light)]), name_of(most->first)));
 }
 
 } // namespace
