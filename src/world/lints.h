@@ -12,8 +12,9 @@
 
 namespace weft::world {
 
-/// "file:line:column: what, and what to do about it", in the order of the scene.
-std::vector<std::string> lint_warnings(World const& world);
+/// "file:line:column: what, and what to do about it". Of lights nothing is said to an integrator
+/// that draws none (`normal`, `aov`, ...).
+std::vector<std::string> lint_warnings(World const& world, scene::Integrator const& integrator);
 
 /// The part of it that is about lights.
 std::vector<std::string> light_warnings(World const& world);

@@ -17,8 +17,10 @@ std::string const kLamp = R"(<light type="area"><instance><shape type="disk"/>
     <emission type="lambertian" emission="5"/>
     <transform><rotate axis="1,0,0" angle="90"/><translate y="3"/></transform></instance></light>)";
 
-std::vector<std::string> warnings(std::string const& contents, std::string const& folder = "") {
-    return lint_warnings(*make_scene(kCamera + contents, "type=\"path\"", folder).world);
+std::vector<std::string> warnings(std::string const& contents, std::string const& folder = "",
+                                  std::string const& integrator = "type=\"path\"") {
+    auto const scene = make_scene(kCamera + contents, integrator, folder);
+    return lint_warnings(*scene.world, scene.job.integrator);
 }
 /// The only thing said holds all of `parts`.
 void expect_one(std::string const& contents, std::vector<std::string> const& parts) {
@@ -43,7 +45,10 @@ TEST(Lints, AreSilentAboutGoodScenes) {
     expect_none(kFloor + R"(<light type="envmap"><texture type="constant" value="0.5"/></light>)");
 }
 
-TEST(Lints, NoLight) { expect_one(kFloor, {"no light", "add a <light>"}); }
+TEST(Lints, NoLight) {
+    expect_one(kFloor, {"no light", "add a <light>"});
+    EXPECT_TRUE(warnings(kFloor, "", "type=\"normal\"").empty());
+}
 
 TEST(Lints, LightsWithoutPower) {
     expect_one(kFloor + kLamp + point("power=\"0\""),

@@ -96,7 +96,7 @@ int render_job(RenderArguments& a, io::RenderJob const& job, bool only_job,
     auto const world =
         world::World::commit(job.scene, {a.isa, parse_size(a.size, *job.scene),
                                          integrator::combines_strategies(job.integrator)});
-    for (std::string const& lint : world::lint_warnings(*world))
+    for (std::string const& lint : world::lint_warnings(*world, job.integrator))
         fmt::print(stderr, "warning: {}\n", lint);
 
     ProgressLine progress(progress_style(a.progress));
