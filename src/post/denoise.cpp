@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 
+#include "post/network.h"
 #include "post/nlm.h"
+#include "post/oidn.h"
+#include "post/weights.h"
 
 namespace weft::post {
 
@@ -21,6 +24,14 @@ void check_size(char const* what, image::Image const& image, image::Image const&
                      size(color) + ", found " + size(image));
 }
 
+/// "a, b or c"
+std::string list(std::vector<std::string> const& names) {
+    std::string text;
+    for (size_t i = 0; i < names.size(); ++i)
+        text += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + names[i];
+    return text;
+}
+
 } // namespace
 
 std::string_view backend_name(Backend backend) { return choices(backend)[size_t(backend)]; }
@@ -29,7 +40,25 @@ Denoised denoise(DenoiseInput const& input, DenoiseOptions const& options) {
     check_size("picture", *input.color, *input.color);
     if (input.albedo) check_size("albedo", *input.albedo, *input.color);
     if (input.normal) check_size("normal", *input.normal, *input.color);
-    (void)options;
+    bool const any = options.backend == Backend::automatic;
+    if (any || options.backend == Backend::oidn) {
+        OidnLibrary const library(options.oidn_libraries);
+        if (library) return {denoise_oidn(library, input, options.memory), Backend::oidn};
+        if (!any)
+            throw InputError(
+                "the backend 'oidn' expects Intel Open Image Denoise to be installed: " +
+                library.problem() + ". 'network' and 'nlm' do without it");
+    }
+    if (any || options.backend == Backend::network) {
+        auto const folders = weight_folders(options.weights);
+        std::string const file = weights_file(input), path = find_weights(file, folders);
+        if (!path.empty()) return {denoise_network(input, path, options.memory), Backend::network};
+        if (!any)
+            throw InputError("the backend 'network' expects the file " + file + " in " +
+                             list(folders) +
+                             ", found none: tools/setup denoise downloads it; 'nlm' does "
+                             "without it");
+    }
     return {denoise_nlm(input), Backend::nlm};
 }
 

@@ -32,8 +32,11 @@ struct DenoiseOptions {
     /// Megabytes (2^20 bytes) that may be taken beside the pictures; at least 256. Where that is
     /// less than the whole picture needs it is done in tiles.
     int memory = 1024;
-    /// Where to look for the network's weights first (see post/network.h); "" is nowhere else.
+    /// A folder to look for the network's weights in before all others (`weight_folders`), or "".
     std::string weights;
+    /// What the dynamic linker is asked for, in this order.
+    std::vector<std::string> oidn_libraries{"libOpenImageDenoise.so.2", "libOpenImageDenoise.so.1",
+                                            "libOpenImageDenoise.so"};
 };
 
 struct Denoised {

@@ -65,26 +65,43 @@ void load(DenoiseInput const& input, int x0, int y0, TileData& tile) {
         }
 }
 
-/// Brings down what outshines all but two of the 24 pixels around it more than threefold.
+/// The squared difference of the features of two pixels, in units of what tells surfaces apart.
+float feature_distance(TileData const& tile, size_t p, size_t q) {
+    float albedo = 0, normal = 0;
+    for (size_t c = 0; c < 3; ++c) {
+        float const a = tile.albedo[c][p] - tile.albedo[c][q],
+                    n = tile.normal[c][p] - tile.normal[c][q];
+        albedo += a * a;
+        normal += n * n;
+    }
+    return std::max(albedo / (kAlbedoScale * kAlbedoScale), normal / (kNormalScale * kNormalScale));
+}
+
+/// Brings down what outshines all but two of the pixels of its surface around it more than
+/// threefold. A surface of which little is seen, as a small lamp, stays as it is.
 void remove_outliers(TileData& tile) {
     constexpr float kTooBright = 3;
+    constexpr int kEnough = 8; // of 24
     Plane& luminance = tile.difference;
     for (size_t i = 0; i < luminance.size(); ++i)
         luminance[i] =
             0.2126f * tile.light[0][i] + 0.7152f * tile.light[1][i] + 0.0722f * tile.light[2][i];
     for (int y = 2; y < kSide - 2; ++y)
         for (int x = 2; x < kSide - 2; ++x) {
+            size_t const i = at(x, y);
             std::array<float, 3> brightest{};
+            int alike = 0;
             for (int dy = -2; dy <= 2; ++dy)
                 for (int dx = -2; dx <= 2; ++dx) {
-                    if (dx == 0 && dy == 0) continue;
-                    float l = luminance[at(x + dx, y + dy)];
+                    size_t const q = at(x + dx, y + dy);
+                    if ((dx == 0 && dy == 0) || feature_distance(tile, i, q) > 4) continue;
+                    ++alike;
+                    float l = luminance[q];
                     for (float& b : brightest)
                         if (l > b) std::swap(l, b);
                 }
-            size_t const i = at(x, y);
             float const limit = kTooBright * brightest[2];
-            if (luminance[i] > limit)
+            if (alike >= kEnough && luminance[i] > limit)
                 for (Plane& light : tile.light) light[i] *= limit / luminance[i] / kTooBright;
         }
 }
@@ -168,16 +185,8 @@ void add_offset(TileData& tile, int offset_x, int offset_y, Sums& sums) {
     for (int y = 0; y < kTile; ++y)
         for (int x = 0; x < kTile; ++x) {
             size_t const p = at(x + kHalo, y + kHalo), q = size_t(int64_t(p) + shift);
-            float albedo = 0, normal = 0;
-            for (size_t c = 0; c < 3; ++c) {
-                float const a = tile.albedo[c][p] - tile.albedo[c][q],
-                            n = tile.normal[c][p] - tile.normal[c][q];
-                albedo += a * a;
-                normal += n * n;
-            }
-            float const feature = std::max(albedo / (kAlbedoScale * kAlbedoScale),
-                                           normal / (kNormalScale * kNormalScale));
-            float const distance = std::max({0.f, tile.difference[p] / kPixels, feature});
+            float const distance =
+                std::max({0.f, tile.difference[p] / kPixels, feature_distance(tile, p, q)});
             // exp(-16) counts for nothing, and most pixels are further away.
             if (distance > 16) continue;
             float const weight = std::exp(-distance);

@@ -1,0 +1,116 @@
+#include "post/network.h"
+
+#include <dnnl.hpp>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "post/exposure.h"
+#include "post/tiling.h"
+#include "post/unet.h"
+
+namespace weft::post {
+
+namespace {
+
+constexpr float kMostLight = 65504; ///< the largest half
+
+/// The curve's pieces: linear up to kY0, a power up to kY1, then logarithmic.
+constexpr float kA = 1.41283765e+03f, kB = 1.64593172e+00f, kC = 4.31384981e-01f,
+                kD = -2.94139609e-03f, kE = 1.92653254e-01f, kF = 6.26026094e-03f,
+                kG = 9.98620152e-01f;
+constexpr float kY0 = 1.57945760e-06f, kY1 = 3.22087631e-02f;
+constexpr float kX0 = 2.23151711e-03f, kX1 = 3.70974749e-01f;
+constexpr float kLargest = 3.13511904f; ///< what the curve gives for kMostLight
+
+struct Picture {
+    DenoiseInput input;
+    int channels;
+    float exposure;
+};
+
+/// What the network sees of the pixel.
+void encode_pixel(Picture const& p, int x, int y, float* to) {
+    for (int c = 0; c < 3; ++c)
+        *to++ = encode_hdr(std::min(sane(p.input.color->at(x, y, c) * p.exposure), kMostLight));
+    if (p.channels >= 6)
+        for (int c = 0; c < 3; ++c) *to++ = std::min(sane(p.input.albedo->at(x, y, c)), 1.f);
+    if (p.channels >= 9)
+        for (int c = 0; c < 3; ++c) {
+            float const n = p.input.normal->at(x, y, c);
+            *to++ = std::isfinite(n) ? 0.5f + 0.5f * std::clamp(n, -1.f, 1.f) : 0.5f;
+        }
+}
+
+void fill_window(Picture const& p, int x0, int y0, int width, int height, float* to) {
+    image::Image const& color = *p.input.color;
+    tbb::parallel_for(0, height, [&](int y) {
+        float* row = to + size_t(y) * size_t(width) * size_t(p.channels);
+        for (int x = 0; x < width; ++x, row += p.channels) {
+            if (x0 + x < color.width && y0 + y < color.height)
+                encode_pixel(p, x0 + x, y0 + y, row);
+            else // the size is not a multiple of the alignment
+                std::fill(row, row + p.channels, 0.f);
+        }
+    });
+}
+
+void take_window(Window const& wx, Window const& wy, int width, float exposure, float const* from,
+                 image::Image& to) {
+    tbb::parallel_for(wy.from, wy.to, [&](int y) {
+        for (int x = wx.from; x < wx.to; ++x) {
+            float const* pixel =
+                from + (size_t(y - wy.begin) * size_t(width) + size_t(x - wx.begin)) * 3;
+            for (int c = 0; c < 3; ++c)
+                to.at(x, y, c) = std::min(decode_hdr(sane(pixel[c])), kMostLight) / exposure;
+        }
+    });
+}
+
+} // namespace
+
+std::string weights_file(DenoiseInput const& input) {
+    if (!input.albedo) return "rt_hdr.tza";
+    return input.normal ? "rt_hdr_alb_nrm.tza" : "rt_hdr_alb.tza";
+}
+
+float encode_hdr(float y) {
+    float const x = y <= kY0   ? kA * y
+                    : y <= kY1 ? kB * std::pow(y, kC) + kD
+                               : kE * std::log(y + kF) + kG;
+    return x / kLargest;
+}
+
+float decode_hdr(float code) {
+    float const x = code * kLargest;
+    if (x <= kX0) return x / kA;
+    return x <= kX1 ? std::pow((x - kD) / kB, 1 / kC) : std::exp((x - kG) / kE) - kF;
+}
+
+image::Image denoise_network(DenoiseInput const& input, std::string const& weights, int memory) {
+    image::Image const& color = *input.color;
+    Picture const picture{input, input.albedo ? (input.normal ? 9 : 6) : 3, auto_exposure(color)};
+    auto const tiling = tile_picture(
+        color.width, color.height, {kUnetAlignment, kUnetReach}, size_t(memory) << 20,
+        [&](int width, int height) { return unet_memory(picture.channels, width, height); });
+    if (tiling.x.windows.empty())
+        throw InputError("denoising expects more memory than " + std::to_string(memory) +
+                         " MB for its smallest tiles");
+    image::Image result = image::make_image(color.width, color.height, 3);
+    try {
+        Unet network(read_weights(weights), weights, picture.channels, tiling.x.size,
+                     tiling.y.size);
+        for (Window const& wy : tiling.y.windows)
+            for (Window const& wx : tiling.x.windows) {
+                fill_window(picture, wx.begin, wy.begin, tiling.x.size, tiling.y.size,
+                            network.input());
+                network.run();
+                take_window(wx, wy, tiling.x.size, picture.exposure, network.output(), result);
+            }
+    } catch (dnnl::error const& e) {
+        throw InputError(std::string("oneDNN cannot evaluate the network: ") + e.what());
+    }
+    return result;
+}
+
+} // namespace weft::post
