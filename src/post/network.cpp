@@ -23,6 +23,17 @@ constexpr float kY0 = 1.57945760e-06f, kY1 = 3.22087631e-02f;
 constexpr float kX0 = 2.23151711e-03f, kX1 = 3.70974749e-01f;
 constexpr float kLargest = 3.13511904f; ///< what the curve gives for kMostLight
 
+/// The network takes what is beyond the edges for black, which shows along them. So the picture is
+/// continued by its mirror image, and that cut off again.
+constexpr int kMargin = 32;
+
+/// `x` in [-kMargin, ...) mirrored at the edges into [0, size), as often as it takes.
+int mirrored(int x, int size) {
+    int const period = 2 * size;
+    x = (x % period + period) % period;
+    return x < size ? x : period - 1 - x;
+}
+
 struct Picture {
     DenoiseInput input;
     int channels;
@@ -42,32 +53,44 @@ void encode_pixel(Picture const& p, int x, int y, float* to) {
         }
 }
 
+/// Windows are places in the picture with its margins.
 void fill_window(Picture const& p, int x0, int y0, int width, int height, float* to) {
     image::Image const& color = *p.input.color;
     tbb::parallel_for(0, height, [&](int y) {
         float* row = to + size_t(y) * size_t(width) * size_t(p.channels);
-        for (int x = 0; x < width; ++x, row += p.channels) {
-            if (x0 + x < color.width && y0 + y < color.height)
-                encode_pixel(p, x0 + x, y0 + y, row);
-            else // the size is not a multiple of the alignment
-                std::fill(row, row + p.channels, 0.f);
-        }
+        for (int x = 0; x < width; ++x, row += p.channels)
+            encode_pixel(p, mirrored(x0 + x - kMargin, color.width),
+                         mirrored(y0 + y - kMargin, color.height), row);
     });
 }
 
 void take_window(Window const& wx, Window const& wy, int width, float exposure, float const* from,
                  image::Image& to) {
-    tbb::parallel_for(wy.from, wy.to, [&](int y) {
-        for (int x = wx.from; x < wx.to; ++x) {
-            float const* pixel =
-                from + (size_t(y - wy.begin) * size_t(width) + size_t(x - wx.begin)) * 3;
+    auto first = [](Window const& w) { return std::max(w.from - kMargin, 0); };
+    auto last = [](Window const& w, int size) { return std::min(w.to - kMargin, size); };
+    tbb::parallel_for(first(wy), last(wy, to.height), [&](int y) {
+        for (int x = first(wx); x < last(wx, to.width); ++x) {
+            float const* pixel = from + (size_t(y + kMargin - wy.begin) * size_t(width) +
+                                         size_t(x + kMargin - wx.begin)) *
+                                            3;
             for (int c = 0; c < 3; ++c)
                 to.at(x, y, c) = std::min(decode_hdr(sane(pixel[c])), kMostLight) / exposure;
         }
     });
 }
 
+Tiling tiling_for(int width, int height, int channels, int memory) {
+    return tile_picture(width + 2 * kMargin, height + 2 * kMargin, {kUnetAlignment, kUnetReach},
+                        size_t(memory) << 20,
+                        [&](int w, int h) { return unet_memory(channels, w, h); });
+}
+
 } // namespace
+
+int tile_count(int width, int height, int channels, int memory) {
+    Tiling const tiling = tiling_for(width, height, channels, memory);
+    return int(tiling.x.windows.size() * tiling.y.windows.size());
+}
 
 std::string weights_file(DenoiseInput const& input) {
     if (!input.albedo) return "rt_hdr.tza";
@@ -90,9 +113,7 @@ float decode_hdr(float code) {
 image::Image denoise_network(DenoiseInput const& input, std::string const& weights, int memory) {
     image::Image const& color = *input.color;
     Picture const picture{input, input.albedo ? (input.normal ? 9 : 6) : 3, auto_exposure(color)};
-    auto const tiling = tile_picture(
-        color.width, color.height, {kUnetAlignment, kUnetReach}, size_t(memory) << 20,
-        [&](int width, int height) { return unet_memory(picture.channels, width, height); });
+    Tiling const tiling = tiling_for(color.width, color.height, picture.channels, memory);
     if (tiling.x.windows.empty())
         throw InputError("denoising expects more memory than " + std::to_string(memory) +
                          " MB for its smallest tiles");

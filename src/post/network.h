@@ -25,6 +25,9 @@ std::string weights_file(DenoiseInput const& input);
 float encode_hdr(float light);
 float decode_hdr(float code);
 
+/// Into how many tiles it would cut a picture with that many inputs; 0: not even those suffice.
+int tile_count(int width, int height, int channels, int memory);
+
 /// Throws InputError where the file of weights `weights` is not what it should be, or where
 /// `memory` megabytes do not suffice for the smallest tiles. The size of the tiles changes pixels
 /// by rounding alone (relatively about 1e-5). The result does not depend on threads; it depends on

@@ -24,6 +24,7 @@ constexpr float kStrength = 0.6f;     ///< k_c of the paper: larger is smoother
 constexpr float kMostDifference = 25; ///< of one pixel of a patch, in units of the noise
 constexpr float kAlbedoScale = 0.06f, kNormalScale = 0.15f;
 constexpr float kLeastAlbedo = 0.02f;
+constexpr float kLeastOwnWeight = 0.03f;
 
 using Plane = std::vector<float>; ///< kSide x kSide
 
@@ -210,8 +211,8 @@ void denoise_tile(DenoiseInput const& input, float exposure, int x0, int y0, Til
         for (int x = 0; x < std::min(kTile, to.width - x0); ++x) {
             size_t const i = size_t(y) * kTile + size_t(x), p = at(x + kHalo, y + kHalo);
             // The pixel itself counts as much as its nearest relative: its own weight, 1, says
-            // nothing about its noise.
-            float const own = sums->weight[i] > 0 ? sums->largest[i] : 1.f;
+            // nothing about its noise. Where nothing is like it it counts for itself.
+            float const own = std::max(sums->largest[i], kLeastOwnWeight);
             for (int c = 0; c < 3; ++c) {
                 size_t const k = size_t(c);
                 float const albedo = input.albedo ? std::max(tile.albedo[k][p], kLeastAlbedo) : 1.f;

@@ -37,7 +37,7 @@ inline image::Image noisy_picture(int width, int height, uint64_t seed = 1) {
 }
 
 /// The bytes of a file of weights; `half` writes 16-bit floats (of values that have a few bits).
-inline std::string weights_file(post::Weights const& weights, bool half = false) {
+inline std::string weights_bytes(post::Weights const& weights, bool half = false) {
     std::string bytes;
     auto put = [&](auto value) {
         bytes.append(reinterpret_cast<char const*>(&value), sizeof(value));
