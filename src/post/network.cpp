@@ -64,17 +64,57 @@ void fill_window(Picture const& p, int x0, int y0, int width, int height, float*
     });
 }
 
-void take_window(Window const& wx, Window const& wy, int width, float exposure, float const* from,
+/// The least and the largest light of each channel in the window around each pixel of a row. The
+/// network is trained not to leave them, and does so where bright lights end: a hundredth of
+/// its code is a sixth of the light there.
+struct Limits {
+    std::vector<float> least, most; ///< 3 * (x - x0) + c
+};
+
+Limits limits_of_row(image::Image const& color, int y, int x0, int x1) {
+    constexpr int kRadius = 5;
+    int const from = std::max(x0 - kRadius, 0), to = std::min(x1 + kRadius, color.width);
+    std::vector<float> least(size_t(3 * (to - from)), kMostLight * 1e30f), most(least.size(), 0.f);
+    for (int v = std::max(y - kRadius, 0); v <= std::min(y + kRadius, color.height - 1); ++v)
+        for (int x = from; x < to; ++x)
+            for (int c = 0; c < 3; ++c) {
+                size_t const i = size_t(3 * (x - from) + c);
+                float const light = sane(color.at(x, v, c));
+                least[i] = std::min(least[i], light);
+                most[i] = std::max(most[i], light);
+            }
+    Limits limits{std::vector<float>(size_t(3 * (x1 - x0))),
+                  std::vector<float>(size_t(3 * (x1 - x0)))};
+    for (int x = x0; x < x1; ++x)
+        for (int c = 0; c < 3; ++c) {
+            size_t const i = size_t(3 * (x - x0) + c);
+            auto of_column = [&](int u) { return size_t(3 * (u - from) + c); };
+            limits.least[i] = least[of_column(x)];
+            limits.most[i] = most[of_column(x)];
+            for (int u = std::max(x - kRadius, from); u < std::min(x + kRadius + 1, to); ++u) {
+                limits.least[i] = std::min(limits.least[i], least[of_column(u)]);
+                limits.most[i] = std::max(limits.most[i], most[of_column(u)]);
+            }
+        }
+    return limits;
+}
+
+void take_window(Picture const& p, Window const& wx, Window const& wy, int width, float const* from,
                  image::Image& to) {
     auto first = [](Window const& w) { return std::max(w.from - kMargin, 0); };
     auto last = [](Window const& w, int size) { return std::min(w.to - kMargin, size); };
     tbb::parallel_for(first(wy), last(wy, to.height), [&](int y) {
-        for (int x = first(wx); x < last(wx, to.width); ++x) {
+        int const x0 = first(wx), x1 = last(wx, to.width);
+        Limits const limits = limits_of_row(*p.input.color, y, x0, x1);
+        for (int x = x0; x < x1; ++x) {
             float const* pixel = from + (size_t(y + kMargin - wy.begin) * size_t(width) +
                                          size_t(x + kMargin - wx.begin)) *
                                             3;
-            for (int c = 0; c < 3; ++c)
-                to.at(x, y, c) = std::min(decode_hdr(sane(pixel[c])), kMostLight) / exposure;
+            for (int c = 0; c < 3; ++c) {
+                size_t const i = size_t(3 * (x - x0) + c);
+                float const light = std::min(decode_hdr(sane(pixel[c])), kMostLight) / p.exposure;
+                to.at(x, y, c) = std::clamp(light, limits.least[i], limits.most[i]);
+            }
         }
     });
 }
@@ -126,7 +166,7 @@ image::Image denoise_network(DenoiseInput const& input, std::string const& weigh
                 fill_window(picture, wx.begin, wy.begin, tiling.x.size, tiling.y.size,
                             network.input());
                 network.run();
-                take_window(wx, wy, tiling.x.size, picture.exposure, network.output(), result);
+                take_window(picture, wx, wy, tiling.x.size, network.output(), result);
             }
     } catch (dnnl::error const& e) {
         throw InputError(std::string("oneDNN cannot evaluate the network: ") + e.what());

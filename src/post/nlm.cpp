@@ -13,17 +13,24 @@ namespace weft::post {
 namespace {
 
 constexpr int kTile = 64;
-constexpr int kSearch = 8; ///< radius of the window in which pixels are averaged
-constexpr int kPatch = 2;  ///< radius of the patches that are compared
-constexpr int kNoise = 3;  ///< radius of the window of the noise estimate
-/// Patches of the window's pixels; their noise, and the high pass under it.
-constexpr int kHalo = kSearch + kPatch + kNoise + 1;
+constexpr int kSearch = 8;  ///< radius of the window in which pixels are averaged
+constexpr int kPatch = 2;   ///< radius of the patches that are compared
+constexpr int kNoise = 3;   ///< radius of the window of the noise estimate
+constexpr int kOutlier = 2; ///< radius of the window in which outliers are told
+/// Patches of the window's pixels; their noise, and the high pass under it, of what has no
+/// outliers.
+constexpr int kHalo = kSearch + kPatch + kNoise + 1 + kOutlier;
 constexpr int kSide = kTile + 2 * kHalo;
 
 constexpr float kStrength = 0.6f;     ///< k_c of the paper: larger is smoother
-constexpr float kMostDifference = 25; ///< of one pixel of a patch, in units of the noise
-constexpr float kAlbedoScale = 0.06f, kNormalScale = 0.15f;
-constexpr float kLeastAlbedo = 0.02f;
+constexpr float kMostDifference = 40; ///< of one pixel of a patch, in units of the noise
+/// The two pixels themselves must not differ by more than noise hardly ever does.
+float const kPointwise = getenv("PW") ? float(atof(getenv("PW"))) : 12;
+constexpr float kAlbedoScale = 0.04f, kNormalScale = 0.15f;
+/// What is darker is not divided by its own albedo: where an emitter, which has none, meets a
+/// surface, that would blow up small differences.
+constexpr float kLeastAlbedo = 0.2f;
+constexpr float kMostLight = 1e30f; ///< sums of it stay finite
 constexpr float kLeastOwnWeight = 0.03f;
 
 using Plane = std::vector<float>; ///< kSide x kSide
@@ -34,12 +41,13 @@ struct TileData {
     std::array<Plane, 3> logs;  ///< its logarithm, in which patches are compared
     Plane variance;             ///< of the noise in `logs`
     std::array<Plane, 3> albedo, normal;
-    Plane difference, row_sums; ///< scratch
+    Plane difference, row_sums, pointwise; ///< scratch
 
     TileData() {
         for (auto* planes : {&light, &logs, &albedo, &normal})
             for (Plane& p : *planes) p.assign(size_t(kSide) * kSide, 0.f);
-        for (Plane* p : {&variance, &difference, &row_sums}) p->assign(size_t(kSide) * kSide, 0.f);
+        for (Plane* p : {&variance, &difference, &row_sums, &pointwise})
+            p->assign(size_t(kSide) * kSide, 0.f);
     }
 };
 
@@ -61,7 +69,7 @@ void load(DenoiseInput const& input, int x0, int y0, TileData& tile) {
                     tile.normal[k][i] = std::isfinite(n) ? std::clamp(n, -1.f, 1.f) : 0.f;
                 }
                 float const albedo = input.albedo ? std::max(tile.albedo[k][i], kLeastAlbedo) : 1.f;
-                tile.light[k][i] = sane(color.at(px, py, c)) / albedo;
+                tile.light[k][i] = std::min(sane(color.at(px, py, c)), kMostLight) / albedo;
             }
         }
 }
@@ -87,13 +95,13 @@ void remove_outliers(TileData& tile) {
     for (size_t i = 0; i < luminance.size(); ++i)
         luminance[i] =
             0.2126f * tile.light[0][i] + 0.7152f * tile.light[1][i] + 0.0722f * tile.light[2][i];
-    for (int y = 2; y < kSide - 2; ++y)
-        for (int x = 2; x < kSide - 2; ++x) {
+    for (int y = kOutlier; y < kSide - kOutlier; ++y)
+        for (int x = kOutlier; x < kSide - kOutlier; ++x) {
             size_t const i = at(x, y);
             std::array<float, 3> brightest{};
             int alike = 0;
-            for (int dy = -2; dy <= 2; ++dy)
-                for (int dx = -2; dx <= 2; ++dx) {
+            for (int dy = -kOutlier; dy <= kOutlier; ++dy)
+                for (int dx = -kOutlier; dx <= kOutlier; ++dx) {
                     size_t const q = at(x + dx, y + dy);
                     if ((dx == 0 && dy == 0) || feature_distance(tile, i, q) > 4) continue;
                     ++alike;
@@ -146,8 +154,8 @@ struct Sums {
     std::array<float, size_t(kTile) * kTile> largest{}; ///< of the other pixels
 };
 
-/// The differences of all patches of the tile to those `offset` further, times a patch's pixels:
-/// in `tile.difference`.
+/// The differences of all pixels of the tile to those `offset` further, in `tile.pointwise`, and of
+/// their patches, times a patch's pixels, in `tile.difference`.
 void patch_differences(TileData& tile, int offset_x, int offset_y) {
     constexpr int kFrom = kHalo - kPatch, kTo = kHalo + kTile + kPatch;
     constexpr float kTiny = 1e-6f; ///< where there is no noise
@@ -163,6 +171,7 @@ void patch_differences(TileData& tile, int offset_x, int offset_y) {
             float const vp = tile.variance[p], vq = tile.variance[q];
             float const difference = (squares / 3 - (vp + std::min(vp, vq))) /
                                      (kTiny + kStrength * kStrength * (vp + vq));
+            tile.pointwise[p] = difference;
             tile.difference[p] = std::min(difference, kMostDifference);
         }
     for (int y = kFrom; y < kTo; ++y)
@@ -187,7 +196,8 @@ void add_offset(TileData& tile, int offset_x, int offset_y, Sums& sums) {
         for (int x = 0; x < kTile; ++x) {
             size_t const p = at(x + kHalo, y + kHalo), q = size_t(int64_t(p) + shift);
             float const distance =
-                std::max({0.f, tile.difference[p] / kPixels, feature_distance(tile, p, q)});
+                std::max({0.f, tile.difference[p] / kPixels, tile.pointwise[p] / kPointwise,
+                          feature_distance(tile, p, q)});
             // exp(-16) counts for nothing, and most pixels are further away.
             if (distance > 16) continue;
             float const weight = std::exp(-distance);
