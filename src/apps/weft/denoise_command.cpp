@@ -44,11 +44,11 @@ post::ChannelTriple colors_of(std::string const& path, image::Image const& image
 }
 
 post::ChannelTriple layer_of(std::string const& path, image::Image const& image,
-                             std::string const& layer) {
+                             std::string const& layer, char const* what = "layer") {
     if (auto const found = post::find_layer(image.names, layer)) return *found;
     auto const layers = post::layer_names(image.names);
     throw InputError({path},
-                     "expected a layer '" + layer + "' of three channels" +
+                     std::string("expected a ") + what + " '" + layer + "' of three channels" +
                          (layers.empty() ? ", found no layers" : suggestion(layer, layers)));
 }
 
@@ -58,7 +58,8 @@ image::Image guide(Arguments const& a, image::Image const& image, char const* wh
                    std::string const& text, std::string const& usual) {
     if (text == "none" || (text.empty() && usual.empty())) return {};
     if (text.empty() || post::find_layer(image.names, text) || !fs::exists(text))
-        return post::take_channels(image, layer_of(a.input, image, text.empty() ? usual : text));
+        return post::take_channels(
+            image, layer_of(a.input, image, text.empty() ? usual : text, "file or a layer"));
     image::Image const file = read_linear(text);
     if (file.width != image.width || file.height != image.height)
         throw InputError({text},
