@@ -209,7 +209,7 @@ struct Unet::Data {
              {{DNNL_ARG_SRC, tensors[size_t(from)]}, {DNNL_ARG_DST, tensors[size_t(to)]}}});
     }
 
-    /// `add`: to what is there already; the bias then is there, too.
+    /// `add`: to what is there already.
     void add_convolution(int from, int to, Tensor const& weights, Tensor const& bias, bool add) {
         dnnl::primitive_attr attributes;
         dnnl::post_ops after;
@@ -224,31 +224,28 @@ struct Unet::Data {
         auto const kind = dnnl::prop_kind::forward_inference;
         auto const direct = dnnl::algorithm::convolution_direct;
         memory::dims const one{1, 1};
-        auto const desc =
-            add ? Convolution::desc(kind, direct, source, any, target, one, one, one)
-                : Convolution::desc(kind, direct, source, any, bias_desc, target, one, one, one);
+        Convolution::desc const desc(kind, direct, source, any, bias_desc, target, one, one, one);
         Convolution::primitive_desc const primitive(desc, attributes, engine);
-        Step step{Convolution(primitive),
-                  {{DNNL_ARG_SRC, tensors[size_t(from)]},
-                   {DNNL_ARG_WEIGHTS, converted(weights, primitive.weights_desc())},
-                   {DNNL_ARG_DST, tensors[size_t(to)]}}};
-        if (!add) step.arguments[DNNL_ARG_BIAS] = converted(bias, bias_desc);
-        steps.push_back(std::move(step));
+        steps.push_back({Convolution(primitive),
+                         {{DNNL_ARG_SRC, tensors[size_t(from)]},
+                          {DNNL_ARG_WEIGHTS, converted(weights, primitive.weights_desc())},
+                          {DNNL_ARG_BIAS, converted(bias, bias_desc)},
+                          {DNNL_ARG_DST, tensors[size_t(to)]}}});
     }
 
-    void add_enlarging(int from, int to, Tensor const& weights, Tensor const& bias) {
+    /// Without bias: oneDNN would take as much memory again for it, and the convolution that adds
+    /// to this has it.
+    void add_enlarging(int from, int to, Tensor const& weights) {
         memory::desc const any(weights.dims, memory::data_type::f32, memory::format_tag::any);
-        memory::desc const bias_desc(bias.dims, memory::data_type::f32, memory::format_tag::x);
         using Deconvolution = dnnl::deconvolution_forward;
         Deconvolution::desc const desc(dnnl::prop_kind::forward_inference,
                                        dnnl::algorithm::deconvolution_direct,
-                                       tensors[size_t(from)].get_desc(), any, bias_desc,
+                                       tensors[size_t(from)].get_desc(), any,
                                        tensors[size_t(to)].get_desc(), {2, 2}, {1, 1}, {1, 1});
         Deconvolution::primitive_desc const primitive(desc, engine);
         steps.push_back({Deconvolution(primitive),
                          {{DNNL_ARG_SRC, tensors[size_t(from)]},
                           {DNNL_ARG_WEIGHTS, converted(weights, primitive.weights_desc())},
-                          {DNNL_ARG_BIAS, converted(bias, bias_desc)},
                           {DNNL_ARG_DST, tensors[size_t(to)]}}});
     }
 };
@@ -315,7 +312,7 @@ Unet::Unet(Weights const& weights, std::string const& name, int channels, int wi
             continue;
         }
         int64_t const below = d.shapes[size_t(l.from)].channels;
-        d.add_enlarging(l.from, l.to, enlarging_kernel(input_slice(w, 0, below)), b);
+        d.add_enlarging(l.from, l.to, enlarging_kernel(input_slice(w, 0, below)));
         d.add_convolution(l.skip, l.to, input_slice(w, below, w.dims[1] - below), b, true);
     }
 }

@@ -71,11 +71,13 @@ Tensor read_tensor(Reader& in) {
     uint64_t const offset = in.read<uint64_t>();
     size_t const back = in.position();
     in.seek(offset);
-    tensor.values.resize(size_t(count));
     if (type == 'f') {
-        std::memcpy(tensor.values.data(), in.take(count * sizeof(float)), count * sizeof(float));
+        char const* from = in.take(count * sizeof(float));
+        tensor.values.resize(size_t(count));
+        std::memcpy(tensor.values.data(), from, count * sizeof(float));
     } else if (type == 'h') {
         char const* from = in.take(count * sizeof(uint16_t));
+        tensor.values.resize(size_t(count));
         for (float& value : tensor.values) {
             uint16_t bits;
             std::memcpy(&bits, from, sizeof(bits));
