@@ -25,10 +25,10 @@ SplitName split(std::string const& channel) {
 
 std::string find_named(std::vector<std::string> const& channels,
                        std::span<char const* const> names) {
-    for (std::string const& layer : layer_names(channels)) {
-        std::string const last = lower(layer.substr(layer.rfind('.') + 1));
-        if (std::find(names.begin(), names.end(), last) != names.end()) return layer;
-    }
+    auto const layers = layer_names(channels);
+    for (char const* name : names)
+        for (std::string const& layer : layers)
+            if (lower(layer.substr(layer.rfind('.') + 1)) == name) return layer;
     return "";
 }
 
@@ -62,13 +62,13 @@ std::vector<std::string> layer_names(std::vector<std::string> const& channels) {
 }
 
 std::string find_albedo_layer(std::vector<std::string> const& channels) {
-    static constexpr char const* names[] = {"albedo", "denoise_albedo", "denoising albedo"};
+    static constexpr char const* names[] = {"denoise_albedo", "denoising albedo", "albedo"};
     return find_named(channels, names);
 }
 
 std::string find_normal_layer(std::vector<std::string> const& channels) {
     static constexpr char const* names[] = {
-        "normal", "normals", "n", "ns", "sh_normal", "denoise_normal", "denoising normal"};
+        "denoise_normal", "denoising normal", "normal", "normals", "n", "ns", "sh_normal"};
     return find_named(channels, names);
 }
 

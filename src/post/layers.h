@@ -18,10 +18,10 @@ using ChannelTriple = std::array<int, 3>;
 std::optional<ChannelTriple> find_layer(std::vector<std::string> const& channels,
                                         std::string const& layer);
 
-/// The first layer that is called what renderers call the albedo, or the normals, whatever stands
-/// before it and a dot ("ViewLayer.Denoising Albedo"); "" where there is none. Albedo:
-/// "albedo", "denoise_albedo", "denoising albedo"; normals: "normal", "normals", "N", "Ns",
-/// "sh_normal", "denoise_normal", "denoising normal".
+/// The layer that is called what renderers call the guides of denoisers, or else the albedo or the
+/// normals, in any case and whatever stands before it and a dot ("ViewLayer.Denoising Albedo"); ""
+/// where there is none. In this order: "denoise_albedo", "denoising albedo", "albedo";
+/// "denoise_normal", "denoising normal", "normal", "normals", "N", "Ns", "sh_normal".
 std::string find_albedo_layer(std::vector<std::string> const& channels);
 std::string find_normal_layer(std::vector<std::string> const& channels);
 

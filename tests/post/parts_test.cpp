@@ -76,6 +76,9 @@ TEST(Layers, AreFoundByTheirNames) {
         EXPECT_EQ(find_normal_layer(with(name, "XYZ")), name);
         EXPECT_EQ(find_normal_layer(with(name, "rgb")), name);
     }
+    EXPECT_EQ(find_albedo_layer({"albedo.R", "albedo.G", "albedo.B", "denoise_albedo.R",
+                                 "denoise_albedo.G", "denoise_albedo.B"}),
+              "denoise_albedo");
     EXPECT_EQ(find_albedo_layer(with("diffuse", "RGB")), "");
     EXPECT_EQ(find_normal_layer({"R", "G", "B"}), "");
 }

@@ -69,6 +69,20 @@ image::Image guide(Arguments const& a, image::Image const& image, char const* wh
     return post::take_channels(file, colors_of(text, file));
 }
 
+/// With "light_*" as all layers that begin so.
+std::vector<std::string> expanded(std::vector<std::string> const& parts,
+                                  std::vector<std::string> const& channels) {
+    std::vector<std::string> layers;
+    for (std::string const& part : parts) {
+        size_t const before = layers.size();
+        if (part.ends_with('*'))
+            for (std::string const& layer : post::layer_names(channels))
+                if (layer.starts_with(part.substr(0, part.size() - 1))) layers.push_back(layer);
+        if (layers.size() == before) layers.push_back(part);
+    }
+    return layers;
+}
+
 /// Parts that are to be denoised beside the whole must sum to it.
 void check_sum(Arguments const& a, image::Image const& color,
                std::vector<image::Image> const& parts) {
@@ -118,6 +132,7 @@ int run(Arguments& a) {
         guide(a, image, "normal", a.normal, post::find_normal_layer(image.names)));
     post::DenoiseInput const input{&color, albedo.pixels.empty() ? nullptr : &albedo,
                                    normal.pixels.empty() ? nullptr : &normal};
+    a.parts = expanded(a.parts, image.names);
     std::vector<image::Image> parts;
     for (std::string const& layer : a.parts)
         parts.push_back(post::take_channels(image, layer_of(a.input, image, layer)));
@@ -165,7 +180,7 @@ void add_denoise_command(CLI::App& app, Command& chosen) {
     c->add_option(
          "--parts", a->parts,
          "Layers that sum to the picture, as the light of each lamp: denoised so that they "
-         "still do")
+         "still do; 'light_*' stands for all that begin so")
         ->type_name("LAYER,...")
         ->delimiter(',');
     c->add_option("--backend", a->backend, "What denoises; `weft help denoising` says more")
