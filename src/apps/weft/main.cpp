@@ -1,4 +1,5 @@
-// The command line: `weft render`, `test`, `info`, `compare`, `maketx`, `denoise`, `help`, `schema`, `docs`.
+// The command line: `weft render`, `test`, `info`, `compare`, `maketx`, `denoise`, `help`,
+// `schema`, `docs`.
 #include <cstdio>
 
 #include "apps/weft/commands.h"
