@@ -8,6 +8,13 @@ find_package(fmt REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 
+# oneDNN's own CMake files insist on OpenCL's headers, which we have no use for.
+find_path(DNNL_INCLUDE dnnl.hpp REQUIRED)
+find_library(DNNL_LIBRARY dnnl REQUIRED)
+add_library(weft_dnnl INTERFACE)
+target_include_directories(weft_dnnl SYSTEM INTERFACE ${DNNL_INCLUDE})
+target_link_libraries(weft_dnnl INTERFACE ${DNNL_LIBRARY})
+
 # Embree 4 where present, else 3.13; the sources include "world/embree.h", which knows both.
 find_package(embree 4 QUIET)
 if(embree_FOUND)

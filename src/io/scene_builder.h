@@ -22,6 +22,7 @@ struct Document {
     std::map<std::string, std::shared_ptr<scene::Photometry const>> photometries; ///< likewise
     std::shared_ptr<image::TextureCache> textures; ///< the images among them
     std::set<XmlElement const*> used;              ///< the elements that became objects
+    std::vector<XmlElement const*> pictures; ///< the <image>s; an ImageId is an index into them
     std::vector<std::string> warnings;
 };
 
@@ -62,7 +63,6 @@ class SceneBuilder {
 
     scene::Sampler sampler;                         ///< the last one read
     XmlElement const* scene_element = nullptr;      ///< the last one referred to
-    XmlElement const* image_element = nullptr;      ///< likewise
     XmlElement const* integrator_element = nullptr; ///< likewise
 
   private:

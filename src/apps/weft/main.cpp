@@ -1,5 +1,5 @@
-// The command line: `weft render`, `replay`, `test`, `info`, `compare`, `maketx`, `help`, `schema`,
-// `docs`.
+// The command line: `weft render`, `replay`, `test`, `info`, `compare`, `maketx`, `denoise`, `help`,
+// `schema`, `docs`.
 #include <cstdio>
 
 #include "apps/weft/commands.h"
@@ -20,6 +20,7 @@ int main(int argc, char** argv) {
     add_info_command(app, chosen);
     add_compare_command(app, chosen);
     add_maketx_command(app, chosen);
+    add_denoise_command(app, chosen);
     add_help_command(app, chosen);
     add_schema_command(app, chosen);
     add_docs_command(app, chosen);

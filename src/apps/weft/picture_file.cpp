@@ -10,15 +10,14 @@
 
 namespace weft::apps {
 
-namespace {
-
-/// What is written beside the pixels of any file.
-image::Metadata metadata(session::RenderResult const& r, uint32_t seed) {
+image::Metadata render_metadata(session::RenderResult const& r, uint32_t seed) {
     return {{"Software", "Weft " WEFT_VERSION},
             {"weft:seed", std::to_string(seed)},
             {"weft:samplesPerPixel", std::to_string(r.least_samples)},
             {"weft:complete", r.cancelled ? "false" : "true"}};
 }
+
+namespace {
 
 /// As OpenEXR wants it: y up, and row by row for row vectors.
 std::array<float, 16> world_to_camera(scene::Camera const& camera) {
@@ -37,7 +36,7 @@ std::array<float, 16> world_to_camera(scene::Camera const& camera) {
 image::ExrHeader make_header(session::RenderResult const& r, scene::Scene const& scene,
                              Vec2i full_size, uint32_t seed) {
     image::ExrHeader header;
-    header.texts = metadata(r, seed);
+    header.texts = render_metadata(r, seed);
     header.texts["weft:sceneHash"] = fmt::format("{:016x}", scene::scene_hash(scene));
     // As builds do, for whoever wants the same bytes from the same input.
     if (!std::getenv("SOURCE_DATE_EPOCH"))
@@ -75,16 +74,16 @@ image::Image select(image::Image const& image, std::vector<std::string> const& n
 
 } // namespace
 
-void write_picture(std::string const& path, session::RenderResult const& result,
-                   io::RenderJob const& job, world::World const& world, uint32_t seed) {
+void write_render(std::string const& path, session::RenderResult const& result,
+                  io::RenderJob const& job, world::World const& world, uint32_t seed) {
     if (std::filesystem::path(path).extension() == ".exr")
         image::write_described_exr(path, result.film.image(),
                                    make_header(result, *job.scene, world.camera().size(), seed));
     else if (result.film.layout().has(film::Aov::alpha))
         image::write_image(path, select(result.film.image(), {"R", "G", "B", "A"}),
-                           metadata(result, seed));
+                           render_metadata(result, seed));
     else
-        image::write_image(path, result.image, metadata(result, seed));
+        image::write_image(path, result.image, render_metadata(result, seed));
 }
 
 std::vector<film::Aov> parse_aovs(std::vector<std::string> const& texts) {

@@ -1,0 +1,195 @@
+// weft denoise IN.exr -o OUT.exr: takes the noise out of a picture that is there already.
+#include <chrono>
+#include <filesystem>
+#include <fmt/format.h>
+#include <memory>
+
+#include "apps/weft/commands.h"
+#include "apps/weft/progress_line.h"
+#include "base/color.h"
+#include "image/rewrite.h"
+#include "image/write.h"
+#include "post/denoise_parts.h"
+#include "post/layers.h"
+#include "schema/text.h"
+
+namespace weft::apps {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Arguments {
+    std::string input, output;
+    std::string albedo, normal;
+    std::vector<std::string> parts;
+    std::string backend = "auto";
+    post::DenoiseOptions options;
+};
+
+std::string list(std::vector<std::string> const& names) {
+    return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
+}
+
+image::Image read_linear(std::string const& path) {
+    image::Image image = image::read_image(path);
+    if (image.is_srgb_encoded)
+        for (float& x : image.pixels) x = srgb_to_linear(x);
+    return image;
+}
+
+post::ChannelTriple colors_of(std::string const& path, image::Image const& image) {
+    if (auto const found = post::find_layer(image.names, "")) return *found;
+    throw InputError({path}, "expected the channels R, G and B, found " + list(image.names));
+}
+
+post::ChannelTriple layer_of(std::string const& path, image::Image const& image,
+                             std::string const& layer, char const* what = "layer") {
+    if (auto const found = post::find_layer(image.names, layer)) return *found;
+    auto const layers = post::layer_names(image.names);
+    throw InputError({path},
+                     std::string("expected a ") + what + " '" + layer + "' of three channels" +
+                         (layers.empty() ? ", found no layers" : suggestion(layer, layers)));
+}
+
+/// A guide: a layer of the picture or a file, by the option's text; without one, the layer `usual`.
+/// Empty where there is none.
+image::Image guide(Arguments const& a, image::Image const& image, char const* what,
+                   std::string const& text, std::string const& usual) {
+    if (text == "none" || (text.empty() && usual.empty())) return {};
+    if (text.empty() || post::find_layer(image.names, text) || !fs::exists(text))
+        return post::take_channels(
+            image, layer_of(a.input, image, text.empty() ? usual : text, "file or a layer"));
+    image::Image const file = read_linear(text);
+    if (file.width != image.width || file.height != image.height)
+        throw InputError({text},
+                         fmt::format("the {} expects the size of the picture, {} x {}, "
+                                     "found {} x {}",
+                                     what, image.width, image.height, file.width, file.height));
+    return post::take_channels(file, colors_of(text, file));
+}
+
+/// With "light_*" as all layers that begin so.
+std::vector<std::string> expanded(std::vector<std::string> const& parts,
+                                  std::vector<std::string> const& channels) {
+    std::vector<std::string> layers;
+    for (std::string const& part : parts) {
+        size_t const before = layers.size();
+        if (part.ends_with('*'))
+            for (std::string const& layer : post::layer_names(channels))
+                if (layer.starts_with(part.substr(0, part.size() - 1))) layers.push_back(layer);
+        if (layers.size() == before) layers.push_back(part);
+    }
+    return layers;
+}
+
+/// Parts that are to be denoised beside the whole must sum to it.
+void check_sum(Arguments const& a, image::Image const& color,
+               std::vector<image::Image> const& parts) {
+    constexpr double kRounding = 0.01; // that of halves, and of a few samples that were not finite
+    double difference = 0, total = 0;
+    for (size_t i = 0; i < color.pixels.size(); ++i) {
+        double sum = 0;
+        for (image::Image const& part : parts) sum += double(part.pixels[i]);
+        double const whole = double(color.pixels[i]);
+        if (!std::isfinite(whole) || !std::isfinite(sum)) continue;
+        difference += std::abs(whole - sum);
+        total += std::abs(whole);
+    }
+    if (difference > kRounding * total)
+        throw InputError({a.input}, fmt::format("expected layers that sum to the picture, found {} "
+                                                "whose sum is off by {:.3g}% on the average",
+                                                list(a.parts), 100 * difference / total));
+}
+
+/// Writes the channels back where they come from, all else as it was.
+void write(Arguments const& a, image::Image const& image, post::Backend backend) {
+    image::Metadata const more{
+        {"weft:postprocess", fmt::format("denoising ({})", post::backend_name(backend))}};
+    bool const exr = a.output.ends_with(".exr") && a.input.ends_with(".exr");
+    if (exr) {
+        image::rewrite_exr(a.output, a.input, image, more);
+    } else {
+        image::Metadata metadata = image::read_metadata(a.input);
+        metadata.insert(more.begin(), more.end());
+        image::write_image(
+            a.output,
+            image.channels <= 4 ? image : post::take_channels(image, colors_of(a.input, image)),
+            metadata);
+    }
+    fmt::print("{}\n", a.output);
+}
+
+int run(Arguments& a) {
+    image::check_writable(a.output);
+    schema::TextForm<post::Backend>::read(a.backend, a.options.backend);
+    image::Image image = read_linear(a.input);
+    auto const colors = colors_of(a.input, image);
+    image::Image const color = post::take_channels(image, colors);
+    image::Image const albedo =
+        guide(a, image, "albedo", a.albedo, post::find_albedo_layer(image.names));
+    image::Image const normal = post::unpack_normals(
+        guide(a, image, "normal", a.normal, post::find_normal_layer(image.names)));
+    post::DenoiseInput const input{&color, albedo.pixels.empty() ? nullptr : &albedo,
+                                   normal.pixels.empty() ? nullptr : &normal};
+    a.parts = expanded(a.parts, image.names);
+    std::vector<image::Image> parts;
+    for (std::string const& layer : a.parts)
+        parts.push_back(post::take_channels(image, layer_of(a.input, image, layer)));
+    if (!parts.empty()) check_sum(a, color, parts);
+
+    auto const start = std::chrono::steady_clock::now();
+    post::Backend backend;
+    if (parts.empty()) {
+        post::Denoised const result = post::denoise(input, a.options);
+        backend = result.backend;
+        post::put_channels(result.image, colors, image);
+    } else {
+        post::DenoisedParts const result = post::denoise_parts(parts, input, a.options);
+        backend = result.backend;
+        post::put_channels(result.whole, colors, image);
+        for (size_t i = 0; i < parts.size(); ++i)
+            post::put_channels(result.parts[i], layer_of(a.input, image, a.parts[i]), image);
+    }
+    std::chrono::duration<double> const seconds = std::chrono::steady_clock::now() - start;
+    write(a, image, backend);
+    fmt::print(stderr, "denoised by {}{}{} in {}\n", post::backend_name(backend),
+               input.albedo ? ", with albedo" : "", input.normal ? ", with normals" : "",
+               duration_text(seconds.count()));
+    return kDone;
+}
+
+} // namespace
+
+void add_denoise_command(CLI::App& app, Command& chosen) {
+    auto a = std::make_shared<Arguments>();
+    CLI::App* c = app.add_subcommand("denoise", "Take the noise out of a rendered picture");
+    c->add_option("picture", a->input,
+                  "The picture; layers of an EXR that are called as albedo and normals usually are "
+                  "guide the denoiser")
+        ->required()
+        ->type_name("IN");
+    c->add_option("-o,--output", a->output,
+                  "File to write; as EXR it has all layers and the header of IN")
+        ->required()
+        ->type_name("OUT");
+    c->add_option("--albedo", a->albedo, "Layer of IN, or another file, with the albedo; or none")
+        ->type_name("LAYER|FILE");
+    c->add_option("--normal", a->normal, "Layer of IN, or another file, with normals; or none")
+        ->type_name("LAYER|FILE");
+    c->add_option(
+         "--parts", a->parts,
+         "Layers that sum to the picture, as the light of each lamp: denoised so that they "
+         "still do; 'light_*' stands for all that begin so")
+        ->type_name("LAYER,...")
+        ->delimiter(',');
+    c->add_option("--backend", a->backend, "What denoises; `weft help denoising` says more")
+        ->check(CLI::IsMember({"auto", "oidn", "network", "nlm"}));
+    c->add_option("--memory", a->options.memory, "Memory to take beside the pictures, in MB")
+        ->check(CLI::Range(256, 1048576));
+    c->add_option("--weights", a->options.weights, "Folder with the network's weights")
+        ->type_name("FOLDER");
+    c->callback([a, &chosen] { chosen = [a] { return run(*a); }; });
+}
+
+} // namespace weft::apps

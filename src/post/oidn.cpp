@@ -1,0 +1,154 @@
+#include "post/oidn.h"
+
+#include <dlfcn.h>
+
+#include <memory>
+
+#include "post/exposure.h"
+
+namespace weft::post {
+
+namespace {
+
+// As in the library's header oidn.h.
+struct Device;
+struct Filter;
+constexpr int kCpuDevice = 1, kFloat3 = 3;
+
+struct Functions {
+    Device* (*new_device)(int type);
+    void (*commit_device)(Device*);
+    int (*get_device_error)(Device*, char const** message);
+    void (*release_device)(Device*);
+    Filter* (*new_filter)(Device*, char const* type);
+    void (*set_image)(Filter*, char const* name, void* data, int format, size_t width,
+                      size_t height, size_t offset, size_t pixel_stride, size_t row_stride);
+    void (*set_bool)(Filter*, char const* name, bool value);
+    void (*set_int)(Filter*, char const* name, int value);
+    void (*commit_filter)(Filter*);
+    void (*execute_filter)(Filter*);
+    void (*release_filter)(Filter*);
+};
+
+/// The names of each function: that of version 2 and, where it differs, that of version 1.
+struct Names {
+    char const *name, *older = nullptr;
+};
+constexpr Names kSetBool{"oidnSetFilterBool", "oidnSetFilter1b"},
+    kSetInt{"oidnSetFilterInt", "oidnSetFilter1i"};
+constexpr Names kNames[] = {{"oidnNewDevice"},
+                            {"oidnCommitDevice"},
+                            {"oidnGetDeviceError"},
+                            {"oidnReleaseDevice"},
+                            {"oidnNewFilter"},
+                            {"oidnSetSharedFilterImage"},
+                            kSetBool,
+                            kSetInt,
+                            {"oidnCommitFilter"},
+                            {"oidnExecuteFilter"},
+                            {"oidnReleaseFilter"}};
+
+void* find(void* handle, Names const& names) {
+    void* found = dlsym(handle, names.name);
+    return found || !names.older ? found : dlsym(handle, names.older);
+}
+
+template <class F>
+void assign(OidnLibrary const& library, Names const& names, F*& function) {
+    void* found = library.function(names.name);
+    if (!found && names.older) found = library.function(names.older);
+    function = reinterpret_cast<F*>(found);
+}
+
+Functions functions_of(OidnLibrary const& library) {
+    Functions f;
+    assign(library, {"oidnNewDevice"}, f.new_device);
+    assign(library, {"oidnCommitDevice"}, f.commit_device);
+    assign(library, {"oidnGetDeviceError"}, f.get_device_error);
+    assign(library, {"oidnReleaseDevice"}, f.release_device);
+    assign(library, {"oidnNewFilter"}, f.new_filter);
+    assign(library, {"oidnSetSharedFilterImage"}, f.set_image);
+    assign(library, kSetBool, f.set_bool);
+    assign(library, kSetInt, f.set_int);
+    assign(library, {"oidnCommitFilter"}, f.commit_filter);
+    assign(library, {"oidnExecuteFilter"}, f.execute_filter);
+    assign(library, {"oidnReleaseFilter"}, f.release_filter);
+    return f;
+}
+
+void set_image(Functions const& f, Filter* filter, char const* name, image::Image const& image) {
+    // The library only reads what is called otherwise than "output".
+    auto* data = const_cast<float*>(image.pixels.data());
+    f.set_image(filter, name, data, kFloat3, size_t(image.width), size_t(image.height), 0,
+                size_t(image.channels) * sizeof(float), 0);
+}
+
+void sanitise(image::Image& image) {
+    for (float& x : image.pixels) x = sane(x);
+}
+
+image::Image three_channels(image::Image const& image) {
+    image::Image result = image::make_image(image.width, image.height, 3);
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            for (int c = 0; c < 3; ++c) result.at(x, y, c) = image.at(x, y, c);
+    return result;
+}
+
+} // namespace
+
+OidnLibrary::OidnLibrary(std::vector<std::string> const& names) {
+    for (std::string const& name : names) {
+        void* handle = dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL);
+        char const* error = handle ? nullptr : dlerror();
+        char const* lacking = nullptr;
+        if (handle)
+            for (Names const& n : kNames)
+                if (!find(handle, n)) lacking = n.name;
+        if (handle && !lacking) {
+            handle_ = handle;
+            return;
+        }
+        problem_ += (problem_.empty() ? "" : "; ") +
+                    (lacking ? name + " has no function " + lacking
+                             : std::string(error ? error : "cannot be loaded"));
+    }
+}
+
+void* OidnLibrary::function(char const* name) const { return dlsym(handle_, name); }
+
+image::Image denoise_oidn(OidnLibrary const& library, DenoiseInput const& input, int memory) {
+    Functions const f = functions_of(library);
+    Device* const device = f.new_device(kCpuDevice);
+    auto check = [&] {
+        char const* message = nullptr;
+        if (f.get_device_error(device, &message) != 0)
+            throw InputError(std::string("Open Image Denoise: ") +
+                             (message ? message : "unknown error"));
+    };
+    if (!device) check(); // the error of a device that could not be made
+    std::unique_ptr<Device, void (*)(Device*)> const device_owner(device, f.release_device);
+    f.commit_device(device);
+    check();
+    std::unique_ptr<Filter, void (*)(Filter*)> const filter(f.new_filter(device, "RT"),
+                                                            f.release_filter);
+    check();
+    image::Image color = three_channels(*input.color);
+    sanitise(color);
+    image::Image result = image::make_image(color.width, color.height, 3);
+    set_image(f, filter.get(), "color", color);
+    if (input.albedo) set_image(f, filter.get(), "albedo", *input.albedo);
+    // It takes normals only beside albedo.
+    if (input.albedo && input.normal) set_image(f, filter.get(), "normal", *input.normal);
+    set_image(f, filter.get(), "output", result);
+    f.set_bool(filter.get(), "hdr", true);
+    f.set_int(filter.get(), "maxMemoryMB", memory);
+    f.commit_filter(filter.get());
+    check();
+    f.execute_filter(filter.get());
+    check();
+    sanitise(result);
+    return result;
+}
+
+} // namespace weft::post
