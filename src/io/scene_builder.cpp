@@ -148,8 +148,7 @@ int32_t SceneBuilder::add(scene::SceneKind, XmlElement const& e) {
 
 int32_t SceneBuilder::add(scene::ImageKind, XmlElement const& e) {
     read_struct<scene::ImageOutput>(e);
-    image_element = &e;
-    return 0;
+    return index_of(document_.pictures, &e);
 }
 
 int32_t SceneBuilder::add(scene::InstanceKind, XmlElement const& e) {

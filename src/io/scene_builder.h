@@ -20,7 +20,8 @@ struct Document {
     std::multimap<std::string, XmlElement const*, std::less<>> ids;
     std::map<std::string, std::shared_ptr<scene::Mesh const>> meshes; ///< by path
     std::shared_ptr<image::TextureCache> textures;                    ///< the images among them
-    std::set<XmlElement const*> used; ///< the elements that became objects
+    std::set<XmlElement const*> used;        ///< the elements that became objects
+    std::vector<XmlElement const*> pictures; ///< the <image>s; an ImageId is an index into them
     std::vector<std::string> warnings;
 };
 
@@ -61,7 +62,6 @@ class SceneBuilder {
 
     scene::Sampler sampler;                         ///< the last one read
     XmlElement const* scene_element = nullptr;      ///< the last one referred to
-    XmlElement const* image_element = nullptr;      ///< likewise
     XmlElement const* integrator_element = nullptr; ///< likewise
 
   private:

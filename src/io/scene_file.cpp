@@ -90,7 +90,33 @@ class JobReader {
         job.target = match(job.integrator, [](auto const& i) { return i.target; });
         job.sampler = builder.sampler;
         job.scene = read_scene(*builder.scene_element);
-        if (builder.image_element) job.image_name = picture_name(*builder.image_element);
+        if (auto const image = job.target.image) {
+            job.image_name = picture_name(*document_.pictures[size_t(image.index)]);
+            made_.insert(image.index);
+        }
+        return job;
+    }
+
+    PostprocessJob read_postprocess(XmlElement const& element, size_t jobs_before) {
+        scene::Scene unused;
+        SceneBuilder builder(document_, unused);
+        PostprocessJob job{builder.read_variant<scene::Postprocess>(element), jobs_before,
+                           element.where};
+        auto const pictures = scene::pictures_of(job.postprocess);
+        for (auto const& [name, id] : pictures.inputs) {
+            if (made_.contains(id.index)) continue;
+            XmlElement const& image = *document_.pictures[size_t(id.index)];
+            throw InputError(location_of(element, name),
+                             in_quotes(name) + " of " + element_title(element) +
+                                 " expects the image of an integrator or postprocess that comes "
+                                 "before it, found " +
+                                 in_quotes(image.get("id")) + ", which none of them makes");
+        }
+        XmlElement const& image = *document_.pictures[size_t(pictures.output.index)];
+        if (picture_name(image).empty())
+            throw InputError(image.where, "<image> of " + element_title(element) +
+                                              " expects an id: it names the file ID.exr");
+        made_.insert(pictures.output.index);
         return job;
     }
 
@@ -149,6 +175,7 @@ class JobReader {
   private:
     Document& document_;
     std::map<XmlElement const*, std::shared_ptr<scene::Scene const>> scenes_;
+    std::set<int32_t> made_; ///< pictures that the file's integrators and postprocesses make
 };
 
 std::vector<std::string> root_tags() {
@@ -161,7 +188,6 @@ std::vector<std::string> root_tags() {
 /// Mistakes in what nothing refers to are mistakes, too.
 void check_unused(Document& document, XmlElement const& element) {
     for (auto const& child : element.children) {
-        if (child->tag == "postprocess") continue;
         if (is_definition_tag(child->tag) && !document.used.contains(child.get())) {
             scene::Scene unused;
             SceneBuilder(document, unused, Files::find).check_definition(*child);
@@ -171,22 +197,26 @@ void check_unused(Document& document, XmlElement const& element) {
 }
 
 void check_image_names(SceneFile& file) {
-    std::map<std::pair<std::string, std::string>, RenderJob const*> names;
-    for (RenderJob const& job : file.jobs) {
-        if (job.test) continue;
-        auto const [it, fresh] = names.emplace(std::pair(job.folder, job.image_name), &job);
+    std::map<std::pair<std::string, std::string>, std::string> writers;
+    auto check = [&](PictureName const& picture, SourceLocation const& where, char const* tag) {
+        auto const [it, fresh] = writers.emplace(std::pair(picture.folder, picture.name),
+                                                 tag + (" at " + to_string(where)));
         if (!fresh)
-            file.warnings.push_back(to_string(job.where) + ": writes the same picture '" +
-                                    job.image_name + ".exr' as the integrator at " +
-                                    to_string(it->second->where));
-    }
+            file.warnings.push_back(to_string(where) + ": writes the same picture '" +
+                                    picture.name + ".exr' as the " + it->second);
+    };
+    for (RenderJob const& job : file.jobs)
+        if (!job.test) check({job.image_name, job.folder}, job.where, "integrator");
+    for (PostprocessJob const& job : file.postprocesses)
+        check(file.pictures[size_t(scene::pictures_of(job.postprocess).output.index)], job.where,
+              "postprocess");
 }
 
 SceneFile read_document(std::unique_ptr<XmlElement> root, std::vector<std::string> const& overrides,
                         std::shared_ptr<image::TextureCache> textures) {
     if (!textures) textures = std::make_shared<image::TextureCache>();
     for (std::string const& o : overrides) apply_override(*root, o);
-    Document document{std::move(root), {}, {}, textures, {}, {}};
+    Document document{std::move(root), {}, {}, textures, {}, {}, {}};
     index_ids(document);
     JobReader reader(document);
     SceneFile file;
@@ -199,8 +229,7 @@ SceneFile read_document(std::unique_ptr<XmlElement> root, std::vector<std::strin
         } else if (child->tag == "scene") {
             scenes.push_back(child.get());
         } else if (child->tag == "postprocess") {
-            file.warnings.push_back(to_string(child->where) + ": " + element_title(*child) +
-                                    " is not supported yet and is left out");
+            file.postprocesses.push_back(reader.read_postprocess(*child, file.jobs.size()));
         } else if (!is_definition_tag(child->tag)) {
             throw InputError(child->where, "unknown tag <" + child->tag + ">" +
                                                suggestion(child->tag, root_tags()));
@@ -222,6 +251,8 @@ SceneFile read_document(std::unique_ptr<XmlElement> root, std::vector<std::strin
     }
     for (XmlElement const* scene : scenes) reader.check_scene(*scene);
     check_unused(document, *document.root);
+    for (XmlElement const* picture : document.pictures)
+        file.pictures.push_back({std::string(picture->get("id")), picture->folder});
     check_image_names(file);
     for (std::string& warning : textures->take_warnings())
         file.warnings.push_back(std::move(warning));
@@ -268,6 +299,7 @@ std::vector<schema::Schema> all_schemas() {
     add_schemas<scene::Sampler>(all);
     add_schemas<scene::Integrator>(all);
     all.push_back(schema::schema_of<scene::ImageOutput>());
+    add_schemas<scene::Postprocess>(all);
     all.push_back(schema::schema_of<scene::ImageTest>());
     return all;
 }

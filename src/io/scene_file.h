@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "image/texture_cache.h"
+#include "scene/postprocess.h"
 #include "scene/scene.h"
 #include "schema/schema.h"
 
@@ -25,8 +26,24 @@ struct RenderJob {
     SourceLocation where;
 };
 
+/// One postprocess of a file. Its ImageIds and those of the jobs' targets are indices into
+/// `SceneFile::pictures`; what it reads is made by a job or postprocess that comes before it.
+struct PostprocessJob {
+    scene::Postprocess postprocess;
+    size_t jobs_before = 0; ///< how many of the file's jobs come before it
+    SourceLocation where;
+};
+
+/// What an <image> of a file is called, and which folder it goes to.
+struct PictureName {
+    std::string name;   ///< the id
+    std::string folder; ///< of the file; "" is the current one
+};
+
 struct SceneFile {
-    std::vector<RenderJob> jobs; ///< in file order
+    std::vector<RenderJob> jobs;               ///< in file order
+    std::vector<PostprocessJob> postprocesses; ///< in file order
+    std::vector<PictureName> pictures;
     std::vector<std::string> warnings;
     std::shared_ptr<image::TextureCache> textures; ///< through which the scenes' images were read
 };

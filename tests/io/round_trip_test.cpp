@@ -192,6 +192,14 @@ TEST(RoundTrip, EveryTypeOfEveryCategory) {
             return std::variant<scene::ImageTest>(
                 *io::parse_scene(named, "s.xml", "").jobs.at(0).test);
         });
+    round_trips<scene::Postprocess>(
+        "<ref name='input' id='noisy'/><image id='clean'/>", [&](std::string const& t) {
+            return io::parse_scene("<integrator type='path'>" + scene +
+                                       "<image id='noisy'/></integrator>" + t,
+                                   "s.xml", "")
+                .postprocesses.at(0)
+                .postprocess;
+        });
     for (schema::Schema const& s : io::all_schemas())
         EXPECT_TRUE(tested.contains(std::string(s.info.category) + " " + std::string(s.info.type)))
             << "no round trip for " << s.info.category << " " << s.info.type;

@@ -241,15 +241,18 @@ TEST(SceneFile, OverridesSetParameters) {
 }
 
 TEST(SceneFile, IntegratorsShareAScene) {
-    io::SceneFile const file =
-        parse("<integrator type='path' depth='3'><ref id='room'/><sampler type='halton' count='8'/>"
-              "<image id='a'/></integrator>"
-              "<scene id='room'>" +
-              kCamera +
-              "</scene>"
-              "<integrator type='aov' variable='uv'><ref id='room'/><image id='b'/></integrator>"
-              "<postprocess type='bloom'><image id='c'/></postprocess>");
-    ASSERT_EQ(file.jobs.size(), 2u);
+    io::SceneFile const file = parse(
+        "<integrator type='path' depth='3'><ref id='room'/><sampler type='halton' count='8'/>"
+        "<image id='a'/></integrator>"
+        "<scene id='room'>" +
+        kCamera +
+        "</scene>"
+        "<integrator type='aov' variable='uv'><ref id='room'/><image id='b'/></integrator>"
+        "<postprocess type='denoising'><ref name='input' id='a'/><image id='c'/></postprocess>"
+        "<integrator type='albedo'><ref id='room'/><image id='d'/></integrator>"
+        "<postprocess type='denoising'><ref name='input' id='c'/><ref name='albedo' id='d'/>"
+        "<image id='e'/></postprocess>");
+    ASSERT_EQ(file.jobs.size(), 3u);
     EXPECT_EQ(file.jobs[0].scene, file.jobs[1].scene);
     EXPECT_EQ(std::get<scene::PathIntegrator>(file.jobs[0].integrator).depth, 3);
     EXPECT_EQ(std::get<scene::AovIntegrator>(file.jobs[1].integrator).variable,
@@ -258,15 +261,31 @@ TEST(SceneFile, IntegratorsShareAScene) {
     EXPECT_EQ(match(file.jobs[1].sampler, [](auto const& s) { return s.count; }), 64);
     EXPECT_EQ(file.jobs[0].image_name, "a");
     EXPECT_EQ(file.jobs[1].image_name, "b");
-    EXPECT_EQ(file.warnings,
-              std::vector<std::string>{"s.xml:1:268: <postprocess type=\"bloom\"> is "
-                                       "not supported yet and is left out"});
+    EXPECT_TRUE(file.warnings.empty());
+
+    ASSERT_EQ(file.postprocesses.size(), 2u);
+    EXPECT_EQ(file.postprocesses[0].jobs_before, 2u);
+    EXPECT_EQ(file.postprocesses[1].jobs_before, 3u);
+    auto const pictures = scene::pictures_of(file.postprocesses[1].postprocess);
+    auto name = [&](scene::ImageId id) { return file.pictures.at(size_t(id.index)).name; };
+    ASSERT_EQ(pictures.inputs.size(), 2u);
+    EXPECT_EQ(pictures.inputs[0].first, "input");
+    EXPECT_EQ(name(pictures.inputs[0].second), "c");
+    EXPECT_EQ(pictures.inputs[1].first, "albedo");
+    EXPECT_EQ(name(pictures.inputs[1].second), "d");
+    EXPECT_EQ(pictures.inputs[1].second, file.jobs[2].target.image);
+    EXPECT_EQ(name(pictures.output), "e");
 }
 
 TEST(SceneFile, TwoIntegratorsOfOnePictureAreToldApart) {
     std::string const path =
         "<integrator type='path'><scene>" + kCamera + "</scene><image id='a'/></integrator>\n";
     EXPECT_EQ(parse(path + path).warnings,
+              std::vector<std::string>{"s.xml:2:1: writes the same picture 'a.exr' as the "
+                                       "integrator at s.xml:1:1"});
+    EXPECT_EQ(parse(path + "<postprocess type='denoising'><ref name='input' id='a'/><ref id='a'/>"
+                           "</postprocess>")
+                  .warnings,
               std::vector<std::string>{"s.xml:2:1: writes the same picture 'a.exr' as the "
                                        "integrator at s.xml:1:1"});
 }

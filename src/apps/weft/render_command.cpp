@@ -9,6 +9,7 @@
 #include "apps/weft/scene_loading.h"
 #include "apps/weft/texture_options.h"
 #include "image/write.h"
+#include "post/run.h"
 #include "session/render.h"
 
 namespace weft::apps {
@@ -38,17 +39,17 @@ film::Region parse_crop(std::string const& text) {
     return {{int((*v)[0]), int((*v)[1])}, {int((*v)[2]), int((*v)[3])}};
 }
 
-/// Where a job's pictures go: what the user asked for, or NAME.exr beside the scene.
-std::vector<std::string> output_paths(RenderArguments const& a, io::RenderJob const& job,
-                                      bool only_job) {
+/// Where a picture goes: what the user asked for, or NAME.exr beside the scene.
+std::vector<std::string> output_paths(RenderArguments const& a, io::PictureName const& picture,
+                                      bool only_picture) {
     std::string const stem =
-        job.image_name.empty() ? fs::path(a.scene).stem().string() : job.image_name;
-    if (a.outputs.empty()) return {(fs::path(job.folder) / (stem + ".exr")).string()};
+        picture.name.empty() ? fs::path(a.scene).stem().string() : picture.name;
+    if (a.outputs.empty()) return {(fs::path(picture.folder) / (stem + ".exr")).string()};
     std::vector<std::string> paths;
     for (std::string const& output : a.outputs) {
         if (fs::is_directory(output))
             paths.push_back((fs::path(output) / (stem + ".exr")).string());
-        else if (only_job)
+        else if (only_picture)
             paths.push_back(output);
         else
             throw InputError(
@@ -75,9 +76,17 @@ void report_bad_samples(session::RenderResult const& r, uint32_t seed) {
                    b.sample, seed, b.value.r, b.value.g, b.value.b);
 }
 
-int render_job(RenderArguments& a, io::RenderJob const& job, bool only_job,
-               image::TextureCache const& textures) {
-    auto const paths = output_paths(a, job, only_job);
+void write_picture(std::vector<std::string> const& paths, post::Picture const& picture) {
+    for (std::string const& path : paths) {
+        image::write_image(path, picture.image, picture.metadata);
+        fmt::print("{}\n", path);
+    }
+}
+
+/// `made` becomes the picture.
+int render_job(RenderArguments& a, io::RenderJob const& job, bool only_picture,
+               image::TextureCache const& textures, post::Picture& made) {
+    auto const paths = output_paths(a, {job.image_name, job.folder}, only_picture);
     for (std::string const& path : paths) image::check_writable(path);
     auto const world = world::World::commit(job.scene, {a.isa, parse_size(a.size, *job.scene)});
     for (std::string const& lint : lint_warnings(*world)) fmt::print(stderr, "warning: {}\n", lint);
@@ -87,7 +96,7 @@ int render_job(RenderArguments& a, io::RenderJob const& job, bool only_job,
     if (!a.crop.empty()) a.options.crop = parse_crop(a.crop);
     GracefulInterrupt const interrupt;
     a.options.cancel = &interrupt.flag();
-    session::RenderResult const result = session::render(*world, job, a.options);
+    session::RenderResult result = session::render(*world, job, a.options);
     if (result.cancelled) progress.stop();
     report_bad_samples(result, a.options.seed);
     if (std::string const failure = textures.failure(); !failure.empty())
@@ -96,10 +105,8 @@ int render_job(RenderArguments& a, io::RenderJob const& job, bool only_job,
         fmt::print(stderr, "stopped before every pixel had a sample: no file is overwritten\n");
         return kInterrupted;
     }
-    for (std::string const& path : paths) {
-        image::write_image(path, result.image, metadata(a, result));
-        fmt::print("{}\n", path);
-    }
+    made = {std::move(result.image), metadata(a, result)};
+    write_picture(paths, made);
     fmt::print(stderr, "{} x {} pixels, {} samples each: {}, {} samples/s\n", result.region.width(),
                result.region.height(), result.least_samples, duration_text(result.seconds),
                count_text(result.pixel_samples / std::max(result.seconds, 1e-9)));
@@ -112,16 +119,51 @@ int render_job(RenderArguments& a, io::RenderJob const& job, bool only_job,
     return kInterrupted;
 }
 
+io::PictureName const& output_of(io::SceneFile const& file, io::PostprocessJob const& job) {
+    return file.pictures[size_t(scene::pictures_of(job.postprocess).output.index)];
+}
+
+/// Whether a picture is an input of a postprocess from `next` on.
+bool is_read(int32_t picture, std::vector<io::PostprocessJob>::const_iterator next,
+             io::SceneFile const& file) {
+    return std::any_of(next, file.postprocesses.end(), [&](io::PostprocessJob const& job) {
+        auto const inputs = scene::pictures_of(job.postprocess).inputs;
+        return std::any_of(inputs.begin(), inputs.end(),
+                           [&](auto const& input) { return input.second.index == picture; });
+    });
+}
+
+/// Integrators and postprocesses in the order of the file.
+int run_file(RenderArguments& a, io::SceneFile const& file) {
+    bool const only_picture = file.jobs.size() + file.postprocesses.size() == 1;
+    for (io::PostprocessJob const& job : file.postprocesses) {
+        auto const& picture = output_of(file, job);
+        for (std::string const& path : output_paths(a, picture, only_picture))
+            image::check_writable(path);
+    }
+    post::Pictures pictures;
+    auto next = file.postprocesses.begin();
+    for (size_t i = 0; i < file.jobs.size(); ++i) {
+        post::Picture made;
+        int const code = render_job(a, file.jobs[i], only_picture, *file.textures, made);
+        if (code != kDone) return code;
+        pictures[file.jobs[i].target.image.index] = std::move(made);
+        for (; next != file.postprocesses.end() && next->jobs_before == i + 1; ++next) {
+            post::Picture result = post::run(*next, pictures);
+            write_picture(output_paths(a, output_of(file, *next), only_picture), result);
+            pictures[scene::pictures_of(next->postprocess).output.index] = std::move(result);
+        }
+        std::erase_if(pictures, [&](auto const& p) { return !is_read(p.first, next, file); });
+    }
+    return kDone;
+}
+
 int run(RenderArguments& a) {
     a.textures.show_conversion = a.progress != "none" && a.progress != "json";
     io::SceneFile const file =
         io::read_scene_file(a.scene, a.overrides, make_texture_cache(a.textures));
     for (std::string const& warning : file.warnings) fmt::print(stderr, "warning: {}\n", warning);
-    for (io::RenderJob const& job : file.jobs)
-        if (int const code = render_job(a, job, file.jobs.size() == 1, *file.textures);
-            code != kDone)
-            return code;
-    return kDone;
+    return run_file(a, file);
 }
 
 } // namespace

@@ -1,0 +1,47 @@
+#include "post/denoise.h"
+
+#include <algorithm>
+#include <array>
+
+#include "post/nlm.h"
+
+namespace weft::post {
+
+namespace {
+
+void check_size(char const* what, image::Image const& image, image::Image const& color) {
+    if (image.channels < 3)
+        throw InputError(std::string("the ") + what + " expects 3 channels, found " +
+                         std::to_string(image.channels));
+    if (image.width == color.width && image.height == color.height) return;
+    auto size = [](image::Image const& i) {
+        return std::to_string(i.width) + " x " + std::to_string(i.height);
+    };
+    throw InputError(std::string("the ") + what + " expects the size of the picture, " +
+                     size(color) + ", found " + size(image));
+}
+
+} // namespace
+
+std::string_view backend_name(Backend backend) { return choices(backend)[size_t(backend)]; }
+
+Denoised denoise(DenoiseInput const& input, DenoiseOptions const& options) {
+    check_size("picture", *input.color, *input.color);
+    if (input.albedo) check_size("albedo", *input.albedo, *input.color);
+    if (input.normal) check_size("normal", *input.normal, *input.color);
+    (void)options;
+    return {denoise_nlm(input), Backend::nlm};
+}
+
+image::Image unpack_normals(image::Image const& picture) {
+    auto const& from = picture.pixels;
+    image::Image normals = picture;
+    if (std::any_of(from.begin(), from.end(), [](float x) { return x < 0; })) return normals;
+    size_t const stride = size_t(picture.channels);
+    for (size_t i = 0; i + 3 <= from.size(); i += stride)
+        if (from[i] != 0 || from[i + 1] != 0 || from[i + 2] != 0)
+            for (size_t c = 0; c < 3; ++c) normals.pixels[i + c] = 2 * from[i + c] - 1;
+    return normals;
+}
+
+} // namespace weft::post

@@ -1,0 +1,56 @@
+// Takes the noise out of a rendered picture.
+//
+// Three backends, from the best to the one that is always there:
+//
+//  oidn     the library Intel Open Image Denoise, where the system has it (post/oidn.h)
+//  network  its published network, evaluated by us with its published weights (post/network.h)
+//  nlm      non-local means guided by albedo and normal (post/nlm.h)
+//
+// What is common to all: pixels that are not finite are taken for black, negative ones for 0; so
+// the result is finite and not negative. Pixels keep their place, and nothing but the three colour
+// channels is made: alpha and other layers are the caller's.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "image/image.h"
+#include "scene/postprocess.h"
+
+namespace weft::post {
+
+using Backend = scene::DenoiseBackend;
+
+struct DenoiseInput {
+    image::Image const* color = nullptr; ///< linear RGB, any exposure; further channels are ignored
+    image::Image const* albedo = nullptr; ///< of the first surface, in [0, 1]; may be null
+    image::Image const* normal = nullptr; ///< unit vectors in any frame, 0 for none; may be null
+};
+
+struct DenoiseOptions {
+    Backend backend = Backend::automatic;
+    /// Megabytes (2^20 bytes) that may be taken beside the pictures; at least 256. Where that is
+    /// less than the whole picture needs it is done in tiles.
+    int memory = 1024;
+    /// Where to look for the network's weights first (see post/network.h); "" is nowhere else.
+    std::string weights;
+};
+
+struct Denoised {
+    image::Image image; ///< RGB, of the size of the colour
+    Backend backend;    ///< that did it; not `automatic`
+};
+
+/// Throws InputError where sizes or numbers of channels do not go together, where memory does not
+/// suffice, or where the backend that is asked for is not there: the message then says how to get
+/// it.
+Denoised denoise(DenoiseInput const& input, DenoiseOptions const& options);
+
+/// As it is written in files.
+std::string_view backend_name(Backend backend);
+
+/// Normals as the `normal` and `aov` integrators draw them become vectors: where no value is
+/// negative they are taken for (n + 1) / 2, with black (nothing there) as 0. Others stay.
+image::Image unpack_normals(image::Image const& picture);
+
+} // namespace weft::post

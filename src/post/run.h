@@ -1,0 +1,27 @@
+// Runs the postprocesses of a scene file: pictures in memory go in, one comes out.
+//
+// A further kind of postprocess is an overload of `apply` (post/apply.h; scene/postprocess.h lists
+// the other steps).
+#pragma once
+
+#include <map>
+
+#include "image/image.h"
+#include "io/scene_file.h"
+
+namespace weft::post {
+
+struct Picture {
+    image::Image image; ///< linear RGB
+    image::Metadata metadata;
+};
+
+/// What the integrators and postprocesses of a file have made so far, by ImageId::index.
+using Pictures = std::map<int32_t, Picture>;
+
+/// Makes the picture that `job` describes. All that it reads must be in `pictures`. Its metadata is
+/// that of its `input`, and "weft:postprocess" says how it was made. Throws InputError, with the
+/// place of the job, where its pictures do not go together or it cannot be done on this machine.
+Picture run(io::PostprocessJob const& job, Pictures const& pictures);
+
+} // namespace weft::post
