@@ -4,6 +4,7 @@
 #include "image/atomic_file.h"
 #include "image/output_file.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
@@ -192,6 +193,18 @@ void write_exr(std::string const& path, Image const& image, Metadata const& meta
 void write_png(std::string const& path, Image const& image, Metadata const& metadata) {
     require_extension(path, ".png");
     write_display(path, image, metadata);
+}
+
+std::vector<unsigned char> png_bytes(int width, int height, int channels,
+                                     std::span<uint8_t const> pixels) {
+    assert(pixels.size() == size_t(width) * size_t(height) * size_t(channels));
+    OIIO::Filesystem::IOVecOutput file;
+    auto const output = OIIO::ImageOutput::create("png", &file);
+    OIIO::ImageSpec const spec(width, height, channels, OIIO::TypeDesc::UINT8);
+    if (!output || !output->open("memory.png", spec) ||
+        !output->write_image(OIIO::TypeDesc::UINT8, pixels.data()) || !output->close())
+        throw IoError("cannot make a PNG" + (output ? ": " + output->geterror() : ""));
+    return file.buffer();
 }
 
 void write_image(std::string const& path, Image const& image, Metadata const& metadata) {

@@ -38,6 +38,10 @@ void write_exr(std::string const& path, Image const& image, Metadata const& meta
 /// colours not premultiplied. Throws InputError where the extension is not .png.
 void write_png(std::string const& path, Image const& image, Metadata const& metadata = {});
 
+/// The file of an 8-bit PNG in memory, of pixels that are already encoded; 1 to 4 channels.
+std::vector<unsigned char> png_bytes(int width, int height, int channels,
+                                     std::span<uint8_t const> pixels);
+
 /// By the extension: .exr and .hdr hold linear floats, .png, .jpg, .jpeg, .tif and .tiff what
 /// `write_png` describes (JPEG, at quality 95, and HDR without alpha). Throws InputError for
 /// another extension.

@@ -1,4 +1,5 @@
-// The command line: `weft render`, `test`, `info`, `compare`, `maketx`, `help`, `schema`, `docs`.
+// The command line: `weft render`, `test`, `info`, `compare`, `display`, `maketx`, `help`,
+// `schema`, `docs`.
 #include <cstdio>
 
 #include "apps/weft/commands.h"
@@ -17,6 +18,7 @@ int main(int argc, char** argv) {
     add_test_command(app, chosen);
     add_info_command(app, chosen);
     add_compare_command(app, chosen);
+    add_display_command(app, chosen);
     add_maketx_command(app, chosen);
     add_help_command(app, chosen);
     add_schema_command(app, chosen);
