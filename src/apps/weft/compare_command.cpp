@@ -7,6 +7,7 @@
 #include "apps/weft/commands.h"
 #include "apps/weft/compare_report.h"
 #include "base/color.h"
+#include "image/atomic_file.h"
 #include "image/compare.h"
 #include "image/write.h"
 #include "post/flip.h"
@@ -128,6 +129,11 @@ void check(Arguments const& args) {
     if (!args.report.ends_with(".html") && !args.report.ends_with(".htm"))
         throw InputError("--report expects a file name that ends in .html, found '" + args.report +
                          "'");
+    try {
+        image::probe_folder(args.report);
+    } catch (image::IoError const& e) {
+        throw InputError(e.what());
+    }
 }
 
 int run(Arguments const& args) {
