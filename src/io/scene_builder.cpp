@@ -326,6 +326,19 @@ void SceneBuilder::complete(scene::Group& group, XmlElement const& element) {
                                      ": the file's lamps are left out: a group holds instances");
 }
 
+void SceneBuilder::complete(scene::Bloom& bloom, XmlElement const& element) {
+    std::string_view const useless = scene::settle_kind(bloom, [&](std::string_view name) {
+        return element.find(name) ||
+               std::any_of(element.children.begin(), element.children.end(),
+                           [&](auto const& c) { return c->get("name") == name; });
+    });
+    if (useless.empty()) return;
+    throw InputError(location_of(element, useless),
+                     in_quotes(useless) + " of " + element_title(element) +
+                         " is a parameter of another kind than '" +
+                         schema::TextForm<scene::BloomKind>::write(bloom.kind) + "'");
+}
+
 void SceneBuilder::complete(scene::Display& display, XmlElement const& element) {
     if (display.ocio.path.empty()) return;
     display.ocio.path =

@@ -10,6 +10,7 @@
 
 #include "image/texture_cache.h"
 #include "io/object_reader.h"
+#include "scene/bloom.h"
 #include "scene/display.h"
 #include "scene/scene.h"
 
@@ -107,6 +108,7 @@ class SceneBuilder {
     void complete(scene::DirectionalLight& light, XmlElement const& element);
     void complete(scene::SpotLight& light, XmlElement const& element);
     void complete(scene::AreaLight& light, XmlElement const& element);
+    void complete(scene::Bloom& bloom, XmlElement const& element);
     void complete(scene::Display& display, XmlElement const& element);
     void complete(scene::SceneContents& contents, XmlElement const& element);
 

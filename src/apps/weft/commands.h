@@ -19,6 +19,7 @@ void add_test_command(CLI::App& app, Command& chosen);
 void add_info_command(CLI::App& app, Command& chosen);
 void add_compare_command(CLI::App& app, Command& chosen);
 void add_display_command(CLI::App& app, Command& chosen);
+void add_bloom_command(CLI::App& app, Command& chosen);
 void add_maketx_command(CLI::App& app, Command& chosen);
 void add_help_command(CLI::App& app, Command& chosen);
 void add_schema_command(CLI::App& app, Command& chosen);

@@ -1,4 +1,4 @@
-// The command line: `weft render`, `test`, `info`, `compare`, `display`, `maketx`, `help`,
+// The command line: `weft render`, `test`, `info`, `compare`, `display`, `bloom`, `maketx`, `help`,
 // `schema`, `docs`.
 #include <cstdio>
 
@@ -19,6 +19,7 @@ int main(int argc, char** argv) {
     add_info_command(app, chosen);
     add_compare_command(app, chosen);
     add_display_command(app, chosen);
+    add_bloom_command(app, chosen);
     add_maketx_command(app, chosen);
     add_help_command(app, chosen);
     add_schema_command(app, chosen);
