@@ -30,6 +30,7 @@ scene::Bloom bloom_of(OptionTexts const& texts) {
 int run(Arguments const& a) {
     scene::Bloom const bloom = bloom_of(a.bloom);
     post::DisplayChain const chain = display_chain(a.display);
+    print_warning(chain);
     for (std::string const& path : a.outputs) image::check_writable(path);
     image::Image const light = image::read_image(a.picture);
     if (light.is_srgb_encoded)

@@ -53,6 +53,7 @@ int run(Arguments const& a) {
     if (a.picture.empty()) throw InputError("expected a picture to show, found none");
     if (a.outputs.empty()) throw InputError("expected -o OUT, where to write it, found none");
     post::DisplayChain const chain = display_chain(a.display);
+    print_warning(chain);
     for (std::string const& path : a.outputs) image::check_writable(path);
     image::Image image = image::read_image(a.picture);
     if (image.is_srgb_encoded) decode(image);
@@ -68,10 +69,11 @@ int run(Arguments const& a) {
 post::DisplayChain display_chain(OptionTexts const& texts, scene::Display display,
                                  SourceLocation const& where) {
     apply_options(texts, display);
-    post::DisplayChain chain =
-        post::make_display_chain(display, texts.empty() ? where : SourceLocation{});
+    return post::make_display_chain(display, texts.empty() ? where : SourceLocation{});
+}
+
+void print_warning(post::DisplayChain const& chain) {
     if (!chain.warning.empty()) fmt::print(stderr, "warning: {}\n", chain.warning);
-    return chain;
 }
 
 void add_display_command(CLI::App& app, Command& chosen) {

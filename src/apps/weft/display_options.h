@@ -12,9 +12,12 @@ inline void add_display_options(CLI::App& command, OptionTexts& texts) {
     add_described_options<scene::Display>(command, texts, "Display (PNG, JPEG and TIFF alone)");
 }
 
-/// The chain for a picture of a scene file; prints its warning. Throws InputError, at the picture's
-/// <display> unless options replace a part of it.
+/// The chain that the options ask for, beyond what a picture of a scene file says. Throws
+/// InputError, at the picture's <display> unless options replace a part of it.
 post::DisplayChain display_chain(OptionTexts const& texts, scene::Display display = {},
                                  SourceLocation const& where = {});
+
+/// What the user should know about a chain, on stderr.
+void print_warning(post::DisplayChain const& chain);
 
 } // namespace weft::apps

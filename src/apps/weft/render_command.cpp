@@ -1,7 +1,9 @@
 // weft render SCENE: reads, commits, renders, writes.
 #include <filesystem>
 #include <fmt/format.h>
+#include <map>
 #include <memory>
+#include <set>
 
 #include "apps/weft/commands.h"
 #include "apps/weft/display_options.h"
@@ -148,6 +150,9 @@ std::map<int32_t, post::DisplayChain> display_chains(RenderArguments const& a,
     if (std::any_of(file.jobs.begin(), file.jobs.end(),
                     [](io::RenderJob const& job) { return !job.target.image; }))
         chains.emplace(-1, display_chain(a.display));
+    std::set<std::string> told;
+    for (auto const& [picture, chain] : chains)
+        if (told.insert(chain.warning).second) print_warning(chain);
     return chains;
 }
 
