@@ -35,3 +35,14 @@ foreach(folder ${folders})
   endif()
 endforeach()
 set_target_properties(OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${existing_folders}")
+
+# Debian 12 puts OpenColorIO's CMake files where CMake does not look, with wrong paths in them.
+find_package(OpenColorIO 2.1 QUIET)
+if(NOT TARGET OpenColorIO::OpenColorIO)
+  find_path(OPENCOLORIO_INCLUDE_DIR OpenColorIO/OpenColorIO.h REQUIRED)
+  find_library(OPENCOLORIO_LIBRARY OpenColorIO REQUIRED)
+  add_library(OpenColorIO::OpenColorIO UNKNOWN IMPORTED)
+  set_target_properties(OpenColorIO::OpenColorIO PROPERTIES
+    IMPORTED_LOCATION ${OPENCOLORIO_LIBRARY}
+    INTERFACE_INCLUDE_DIRECTORIES ${OPENCOLORIO_INCLUDE_DIR})
+endif()

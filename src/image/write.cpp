@@ -4,6 +4,7 @@
 #include "image/atomic_file.h"
 #include "image/output_file.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
@@ -61,11 +62,10 @@ std::vector<std::string> channel_names(Image const& image) {
            image.pixels.size() == image.index(0, image.height, 0);
 }
 
-/// Clips with NaN to 0, encodes and rounds.
-uint8_t encode(float linear) {
-    float const clipped = linear > 0 ? std::min(linear, 1.f) : 0;
-    return uint8_t(linear_to_srgb(clipped) * 255 + 0.5f);
-}
+/// Clips with NaN to 0.
+float clip(float x) { return x > 0 ? std::min(x, 1.f) : 0; }
+
+uint8_t to_byte(float x) { return uint8_t(clip(x) * 255 + 0.5f); }
 
 /// What write.h describes for PNG, cut to the first `kept` channels.
 std::vector<uint8_t> encode_pixels(Image const& image, int kept) {
@@ -78,9 +78,10 @@ std::vector<uint8_t> encode_pixels(Image const& image, int kept) {
         float const alpha = has_alpha ? p[colors] : 1;
         // Without alpha in the file the colours stay as they are over black.
         bool const divide = kept > colors && alpha > 0;
-        for (int c = 0; c < colors; ++c) bytes.push_back(encode(divide ? p[c] / alpha : p[c]));
-        if (kept > colors)
-            bytes.push_back(uint8_t((alpha > 0 ? std::min(alpha, 1.f) : 0) * 255 + 0.5f));
+        for (int c = 0; c < colors; ++c)
+            bytes.push_back(to_byte(
+                image.is_srgb_encoded ? p[c] : linear_to_srgb(clip(divide ? p[c] / alpha : p[c]))));
+        if (kept > colors) bytes.push_back(to_byte(alpha));
     }
     return bytes;
 }
@@ -118,7 +119,7 @@ void check_display_channels(std::string const& path, Image const& image) {
 void write_display(std::string const& path, Image const& image, Metadata const& metadata) {
     assert(is_whole(image));
     check_display_channels(path, image);
-    bool const jpeg = extension_of(path).starts_with(".jp");
+    bool const jpeg = !holds_alpha(path);
     bool const has_alpha = image.channels == 2 || image.channels == 4;
     int const kept = jpeg && has_alpha ? image.channels - 1 : image.channels;
     std::vector<uint8_t> const bytes = encode_pixels(image, kept);
@@ -224,6 +225,18 @@ void write_png(std::string const& path, Image const& image, Metadata const& meta
     write_display(path, image, metadata);
 }
 
+std::vector<unsigned char> png_bytes(int width, int height, int channels,
+                                     std::span<uint8_t const> pixels) {
+    assert(pixels.size() == size_t(width) * size_t(height) * size_t(channels));
+    OIIO::Filesystem::IOVecOutput file;
+    auto const output = OIIO::ImageOutput::create("png", &file);
+    OIIO::ImageSpec const spec(width, height, channels, OIIO::TypeDesc::UINT8);
+    if (!output || !output->open("memory.png", spec) ||
+        !output->write_image(OIIO::TypeDesc::UINT8, pixels.data()) || !output->close())
+        throw IoError("cannot make a PNG" + (output ? ": " + output->geterror() : ""));
+    return file.buffer();
+}
+
 void write_image(std::string const& path, Image const& image, Metadata const& metadata) {
     check_extension(path);
     std::string const e = extension_of(path);
@@ -234,6 +247,10 @@ void write_image(std::string const& path, Image const& image, Metadata const& me
     else
         write_display(path, image, metadata);
 }
+
+bool is_for_screens(std::string const& path) { return is_display_format(extension_of(path)); }
+
+bool holds_alpha(std::string const& path) { return !extension_of(path).starts_with(".jp"); }
 
 void check_writable(std::string const& path) {
     check_extension(path);

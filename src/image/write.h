@@ -58,13 +58,24 @@ void write_described_exr(std::string const& path, Image const& image, ExrHeader 
 
 /// An 8-bit PNG of a linear image with 1 to 4 channels: clipped to [0, 1], encoded as sRGB and
 /// rounded; not-a-number is 0. Alpha is linear; colours, premultiplied in `image`, are divided by
-/// it first, as PNG wants them. Throws InputError where the extension is not .png.
+/// it first, as PNG wants them. An image that `is_srgb_encoded` is only clipped and rounded, its
+/// colours not premultiplied. Throws InputError where the extension is not .png.
 void write_png(std::string const& path, Image const& image, Metadata const& metadata = {});
+
+/// The file of an 8-bit PNG in memory, of pixels that are already encoded; 1 to 4 channels.
+std::vector<unsigned char> png_bytes(int width, int height, int channels,
+                                     std::span<uint8_t const> pixels);
 
 /// By the extension: .exr and .hdr hold linear floats, .png, .jpg, .jpeg, .tif and .tiff what
 /// `write_png` describes (JPEG, at quality 95, and HDR without alpha). Throws InputError for
 /// another extension.
 void write_image(std::string const& path, Image const& image, Metadata const& metadata = {});
+
+/// Whether `write_image` encodes for a screen what it writes to `path`, by the extension: PNG, JPEG
+/// and TIFF.
+bool is_for_screens(std::string const& path);
+/// Whether such a file can hold alpha.
+bool holds_alpha(std::string const& path);
 
 /// To be asked before a long render: throws InputError where `path` has an unknown extension, is a
 /// folder, or lies in one that is missing or in which no file can be made.

@@ -25,9 +25,9 @@ bool is_property_tag(std::string_view tag) {
 }
 
 std::span<std::string const> definition_tags() {
-    static std::array<std::string, 12> const tags{"bsdf",   "texture",  "shape",     "instance",
-                                                  "light",  "emission", "volume",    "medium",
-                                                  "camera", "image",    "transform", "layer"};
+    static std::array<std::string, 13> const tags{
+        "bsdf",   "texture", "shape", "instance",  "light", "emission", "volume",
+        "medium", "camera",  "image", "transform", "layer", "display"};
     return tags;
 }
 

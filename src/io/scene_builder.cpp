@@ -166,8 +166,14 @@ int32_t SceneBuilder::add(scene::SceneKind, XmlElement const& e) {
 }
 
 int32_t SceneBuilder::add(scene::ImageKind, XmlElement const& e) {
-    read_struct<scene::ImageOutput>(e);
-    return index_of(document_.pictures, &e);
+    auto const output = read_struct<scene::ImageOutput>(e);
+    int32_t const index = index_of(document_.pictures, &e);
+    if (output.display) document_.displays[index] = displays_[size_t(output.display.index)];
+    return index;
+}
+
+int32_t SceneBuilder::add(scene::DisplayKind, XmlElement const& e) {
+    return append(displays_, PlacedDisplay{read_struct<scene::Display>(e), e.where});
 }
 
 int32_t SceneBuilder::add(scene::InstanceKind, XmlElement const& e) {
@@ -343,6 +349,25 @@ void SceneBuilder::complete(scene::Group& group, XmlElement const& element) {
                                      ": the file's lamps are left out: a group holds instances");
 }
 
+void SceneBuilder::complete(scene::Bloom& bloom, XmlElement const& element) {
+    std::string_view const useless = scene::settle_kind(bloom, [&](std::string_view name) {
+        return element.find(name) ||
+               std::any_of(element.children.begin(), element.children.end(),
+                           [&](auto const& c) { return c->get("name") == name; });
+    });
+    if (useless.empty()) return;
+    throw InputError(location_of(element, useless),
+                     in_quotes(useless) + " of " + element_title(element) +
+                         " is a parameter of another kind than '" +
+                         schema::TextForm<scene::BloomKind>::write(bloom.kind) + "'");
+}
+
+void SceneBuilder::complete(scene::Display& display, XmlElement const& element) {
+    if (display.ocio.path.empty()) return;
+    display.ocio.path =
+        existing_file(element.folder, display.ocio.path, location_of(element, "ocio"));
+}
+
 void SceneBuilder::complete(scene::DirectionalLight& light, XmlElement const& element) {
     check_direction(light.direction, element);
 }
@@ -447,7 +472,7 @@ void SceneBuilder::check_definition(XmlElement const& element) {
     auto check_all = [&](auto... kinds) { (check(kinds), ...); };
     check_all(schema::TextureKind{}, scene::CameraKind{}, scene::MaterialKind{},
               scene::EmissionKind{}, scene::VolumeKind{}, scene::MediumKind{}, scene::ShapeKind{},
-              scene::InstanceKind{}, scene::LightKind{}, scene::ImageKind{});
+              scene::InstanceKind{}, scene::LightKind{}, scene::ImageKind{}, scene::DisplayKind{});
 }
 
 } // namespace weft::io

@@ -10,9 +10,17 @@
 
 #include "image/texture_cache.h"
 #include "io/object_reader.h"
+#include "scene/bloom.h"
+#include "scene/display.h"
 #include "scene/scene.h"
 
 namespace weft::io {
+
+/// A <display>, and where it is written.
+struct PlacedDisplay {
+    scene::Display display;
+    SourceLocation where;
+};
 
 /// What the scenes of one document share: the elements with an id, and the files read so far.
 struct Document {
@@ -22,7 +30,8 @@ struct Document {
     std::map<std::string, std::shared_ptr<scene::Photometry const>> photometries; ///< likewise
     std::shared_ptr<image::TextureCache> textures; ///< the images among them
     std::set<XmlElement const*> used;              ///< the elements that became objects
-    std::vector<XmlElement const*> pictures; ///< the <image>s; an ImageId is an index into them
+    std::vector<XmlElement const*> pictures;   ///< the <image>s; an ImageId is an index into them
+    std::map<int32_t, PlacedDisplay> displays; ///< of the pictures that have one, by ImageId
     std::vector<std::string> warnings;
 };
 
@@ -81,6 +90,7 @@ class SceneBuilder {
     /// Scenes, images and integrators are read by whoever asked for them.
     int32_t add(scene::SceneKind, XmlElement const& element);
     int32_t add(scene::ImageKind, XmlElement const& element);
+    int32_t add(scene::DisplayKind, XmlElement const& element);
     int32_t add(scene::IntegratorKind, XmlElement const& element);
 
     /// What a type needs beyond its parameters: files, and rules between parameters.
@@ -104,6 +114,8 @@ class SceneBuilder {
     void complete(scene::AreaLight& light, XmlElement const& element);
     void complete(scene::SkyLight& light, XmlElement const& element);
     void complete(scene::Portal& portal, XmlElement const& element);
+    void complete(scene::Bloom& bloom, XmlElement const& element);
+    void complete(scene::Display& display, XmlElement const& element);
     void complete(scene::SceneContents& contents, XmlElement const& element);
 
     /// Throws where a part of a material is what only whole materials can be.
@@ -128,7 +140,8 @@ class SceneBuilder {
     Document& document_;
     scene::Scene& scene_;
     Files files_;
-    int depth_ = 0;                  ///< of the object being read
+    int depth_ = 0; ///< of the object being read
+    std::vector<PlacedDisplay> displays_;
     std::vector<Summary> summaries_; ///< one per instance of the scene
     std::vector<scene::ValueType> texture_types_;
     /// Elements already in the scene, by what they were read as; -1: being read.

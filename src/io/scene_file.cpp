@@ -206,7 +206,7 @@ void check_image_names(SceneFile& file) {
                                     picture.name + ".exr' as the " + it->second);
     };
     for (RenderJob const& job : file.jobs)
-        if (!job.test) check({job.image_name, job.folder}, job.where, "integrator");
+        if (!job.test) check({job.image_name, job.folder, {}, {}}, job.where, "integrator");
     for (PostprocessJob const& job : file.postprocesses)
         check(file.pictures[size_t(scene::pictures_of(job.postprocess).output.index)], job.where,
               "postprocess");
@@ -216,7 +216,7 @@ SceneFile read_document(std::unique_ptr<XmlElement> root, std::vector<std::strin
                         std::shared_ptr<image::TextureCache> textures) {
     if (!textures) textures = std::make_shared<image::TextureCache>();
     for (std::string const& o : overrides) apply_override(*root, o);
-    Document document{std::move(root), {}, {}, {}, textures, {}, {}, {}};
+    Document document{std::move(root), {}, {}, {}, textures, {}, {}, {}, {}};
     index_ids(document);
     JobReader reader(document);
     SceneFile file;
@@ -251,8 +251,12 @@ SceneFile read_document(std::unique_ptr<XmlElement> root, std::vector<std::strin
     }
     for (XmlElement const* scene : scenes) reader.check_scene(*scene);
     check_unused(document, *document.root);
-    for (XmlElement const* picture : document.pictures)
-        file.pictures.push_back({std::string(picture->get("id")), picture->folder});
+    for (size_t i = 0; i < document.pictures.size(); ++i) {
+        XmlElement const& picture = *document.pictures[i];
+        PlacedDisplay const& shown = document.displays[int32_t(i)];
+        file.pictures.push_back(
+            {std::string(picture.get("id")), picture.folder, shown.display, shown.where});
+    }
     check_image_names(file);
     for (std::string& warning : textures->take_warnings())
         file.warnings.push_back(std::move(warning));
@@ -300,6 +304,7 @@ std::vector<schema::Schema> all_schemas() {
     add_schemas<scene::Sampler>(all);
     add_schemas<scene::Integrator>(all);
     all.push_back(schema::schema_of<scene::ImageOutput>());
+    all.push_back(schema::schema_of<scene::Display>());
     add_schemas<scene::Postprocess>(all);
     all.push_back(schema::schema_of<scene::ImageTest>());
     return all;

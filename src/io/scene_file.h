@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "image/texture_cache.h"
+#include "scene/display.h"
 #include "scene/postprocess.h"
 #include "scene/scene.h"
 #include "schema/schema.h"
@@ -34,10 +35,12 @@ struct PostprocessJob {
     SourceLocation where;
 };
 
-/// What an <image> of a file is called, and which folder it goes to.
+/// What an <image> of a file is called, which folder it goes to, and how it is shown.
 struct PictureName {
-    std::string name;   ///< the id
-    std::string folder; ///< of the file; "" is the current one
+    std::string name;             ///< the id
+    std::string folder;           ///< of the file; "" is the current one
+    scene::Display display;       ///< the default one where the file has none
+    SourceLocation display_where; ///< of its <display>; empty where there is none
 };
 
 struct SceneFile {

@@ -23,5 +23,6 @@ struct Applied {
 };
 
 Applied apply(scene::Denoising const& denoising, Inputs const& inputs);
+Applied apply(scene::Bloom const& bloom, Inputs const& inputs);
 
 } // namespace weft::post

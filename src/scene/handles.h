@@ -56,6 +56,9 @@ struct SceneKind {
 struct ImageKind {
     static constexpr char const* category = "image";
 };
+struct DisplayKind {
+    static constexpr char const* category = "display";
+};
 struct IntegratorKind {
     static constexpr char const* category = "integrator";
 };
@@ -75,6 +78,7 @@ using SamplerId = schema::Id<SamplerKindTag>;
 using FilterId = schema::Id<FilterKindTag>;
 using SceneId = schema::Id<SceneKind>;
 using ImageId = schema::Id<ImageKind>;
+using DisplayId = schema::Id<DisplayKind>;
 using IntegratorId = schema::Id<IntegratorKind>;
 
 } // namespace weft::scene

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "base/match.h"
+#include "scene/bloom.h"
 #include "scene/handles.h"
 #include "schema/describe.h"
 
@@ -69,7 +70,7 @@ struct Denoising {
     }
 };
 
-using Postprocess = std::variant<Denoising>;
+using Postprocess = std::variant<Denoising, Bloom>;
 
 namespace detail {
 

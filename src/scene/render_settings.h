@@ -251,13 +251,18 @@ using Integrator = std::variant<CameraIntegrator, AovIntegrator, NormalIntegrato
                                 DirectIntegrator, PathIntegrator,
                                 NamedPathIntegrator<PathtracerType>, NamedPathIntegrator<MisType>>;
 
-/// The picture that an integrator makes.
+/// The picture that an integrator or a postprocess makes.
 struct ImageOutput {
     static constexpr schema::TypeInfo info{
         .category = "image", .type = "", .help = "A picture; its id names the file."};
+    DisplayId display;
 
     template <class F>
-    constexpr void describe(F&&) {}
+    constexpr void describe(F&& f) {
+        f("display", display,
+          {.help = "How it is shown where it is written as PNG, JPEG or TIFF; by default clipped "
+                   "and encoded as sRGB."});
+    }
 };
 
 struct ImageTest {

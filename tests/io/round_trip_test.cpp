@@ -208,6 +208,14 @@ TEST(RoundTrip, EveryTypeOfEveryCategory) {
         io::parse_scene("<integrator type='path'>" + scene + t + "</integrator>", "s.xml", "");
         return std::variant<scene::ImageOutput>();
     });
+    round_trips<std::variant<scene::Display>>("", [&](std::string const& t) {
+        return std::variant<scene::Display>(io::parse_scene("<integrator type='path'>" + scene +
+                                                                "<image id='x'>" + t +
+                                                                "</image></integrator>",
+                                                            "s.xml", "")
+                                                .pictures.at(0)
+                                                .display);
+    });
     round_trips<std::variant<scene::ImageTest>>(
         "<integrator type='path'>" + scene + "</integrator>", [](std::string const& t) {
             std::string named = t;

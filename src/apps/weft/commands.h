@@ -19,6 +19,8 @@ void add_replay_command(CLI::App& app, Command& chosen);
 void add_test_command(CLI::App& app, Command& chosen);
 void add_info_command(CLI::App& app, Command& chosen);
 void add_compare_command(CLI::App& app, Command& chosen);
+void add_display_command(CLI::App& app, Command& chosen);
+void add_bloom_command(CLI::App& app, Command& chosen);
 void add_maketx_command(CLI::App& app, Command& chosen);
 void add_denoise_command(CLI::App& app, Command& chosen);
 void add_help_command(CLI::App& app, Command& chosen);

@@ -1,5 +1,5 @@
-// The command line: `weft render`, `replay`, `test`, `info`, `compare`, `maketx`, `denoise`, `help`,
-// `schema`, `docs`.
+// The command line: `weft render`, `replay`, `test`, `info`, `compare`, `display`, `bloom`,
+// `maketx`, `denoise`, `help`, `schema`, `docs`.
 #include <cstdio>
 
 #include "apps/weft/commands.h"
@@ -19,6 +19,8 @@ int main(int argc, char** argv) {
     add_test_command(app, chosen);
     add_info_command(app, chosen);
     add_compare_command(app, chosen);
+    add_display_command(app, chosen);
+    add_bloom_command(app, chosen);
     add_maketx_command(app, chosen);
     add_denoise_command(app, chosen);
     add_help_command(app, chosen);

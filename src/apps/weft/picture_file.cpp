@@ -75,15 +75,16 @@ image::Image select(image::Image const& image, std::vector<std::string> const& n
 } // namespace
 
 void write_render(std::string const& path, session::RenderResult const& result,
-                  io::RenderJob const& job, world::World const& world, uint32_t seed) {
+                  io::RenderJob const& job, world::World const& world, uint32_t seed,
+                  post::DisplayChain const& chain) {
     if (std::filesystem::path(path).extension() == ".exr")
         image::write_described_exr(path, result.film.image(),
                                    make_header(result, *job.scene, world.camera().size(), seed));
     else if (result.film.layout().has(film::Aov::alpha))
-        image::write_image(path, select(result.film.image(), {"R", "G", "B", "A"}),
-                           render_metadata(result, seed));
+        post::write_picture(path, select(result.film.image(), {"R", "G", "B", "A"}), chain,
+                            render_metadata(result, seed));
     else
-        image::write_image(path, result.image, render_metadata(result, seed));
+        post::write_picture(path, result.image, chain, render_metadata(result, seed));
 }
 
 std::vector<film::Aov> parse_aovs(std::vector<std::string> const& texts) {

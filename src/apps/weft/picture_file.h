@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "post/display.h"
 #include "session/render.h"
 
 namespace weft::apps {
@@ -11,7 +12,8 @@ namespace weft::apps {
 /// An EXR gets all channels of the film and says how it was made; any other file the beauty, with
 /// alpha where that was asked for. Throws image::IoError.
 void write_render(std::string const& path, session::RenderResult const& result,
-                  io::RenderJob const& job, world::World const& world, uint32_t seed);
+                  io::RenderJob const& job, world::World const& world, uint32_t seed,
+                  post::DisplayChain const& chain);
 
 /// What is written beside the pixels of any file.
 image::Metadata render_metadata(session::RenderResult const& result, uint32_t seed);

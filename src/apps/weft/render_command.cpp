@@ -1,9 +1,12 @@
 // weft render SCENE: reads, commits, renders, writes.
 #include <filesystem>
 #include <fmt/format.h>
+#include <map>
 #include <memory>
+#include <set>
 
 #include "apps/weft/commands.h"
+#include "apps/weft/display_options.h"
 #include "apps/weft/interrupt.h"
 #include "apps/weft/picture_file.h"
 #include "apps/weft/progress_line.h"
@@ -29,6 +32,7 @@ struct RenderArguments {
     std::vector<std::string> overrides, aovs;
     std::string isa;
     TextureArguments textures;
+    OptionTexts display;
     session::RenderOptions options;
 };
 
@@ -89,17 +93,19 @@ void report_bad_samples(session::RenderResult const& r, uint32_t seed) {
                    b.sample, seed, b.value.r, b.value.g, b.value.b);
 }
 
-void write_picture(std::vector<std::string> const& paths, post::Picture const& picture) {
+void write_picture(std::vector<std::string> const& paths, post::Picture const& picture,
+                   post::DisplayChain const& chain) {
     for (std::string const& path : paths) {
-        image::write_image(path, picture.image, picture.metadata);
+        post::write_picture(path, picture.image, chain, picture.metadata);
         fmt::print("{}\n", path);
     }
 }
 
 /// `made` becomes the picture.
 int render_job(RenderArguments& a, io::RenderJob const& job, bool only_picture,
-               image::TextureCache const& textures, post::Picture& made) {
-    auto const paths = output_paths(a, {job.image_name, job.folder}, only_picture);
+               image::TextureCache const& textures, post::DisplayChain const& chain,
+               post::Picture& made) {
+    auto const paths = output_paths(a, {job.image_name, job.folder, {}, {}}, only_picture);
     for (std::string const& path : paths) image::check_writable(path);
     check_aovs(a, job, paths);
     auto const world =
@@ -123,7 +129,7 @@ int render_job(RenderArguments& a, io::RenderJob const& job, bool only_picture,
         return kInterrupted;
     }
     for (std::string const& path : paths) {
-        write_render(path, result, job, *world, a.options.seed);
+        write_render(path, result, job, *world, a.options.seed, chain);
         fmt::print("{}\n", path);
     }
     made = {result.image, render_metadata(result, a.options.seed)};
@@ -153,9 +159,27 @@ bool is_read(int32_t picture, std::vector<io::PostprocessJob>::const_iterator ne
     });
 }
 
+/// How the file and the options want each picture shown, by ImageId::index; -1: one without an
+/// <image>.
+std::map<int32_t, post::DisplayChain> display_chains(RenderArguments const& a,
+                                                     io::SceneFile const& file) {
+    std::map<int32_t, post::DisplayChain> chains;
+    for (size_t i = 0; i < file.pictures.size(); ++i)
+        chains.emplace(int32_t(i), display_chain(a.display, file.pictures[i].display,
+                                                 file.pictures[i].display_where));
+    if (std::any_of(file.jobs.begin(), file.jobs.end(),
+                    [](io::RenderJob const& job) { return !job.target.image; }))
+        chains.emplace(-1, display_chain(a.display));
+    std::set<std::string> told;
+    for (auto const& [picture, chain] : chains)
+        if (told.insert(chain.warning).second) print_warning(chain);
+    return chains;
+}
+
 /// Integrators and postprocesses in the order of the file.
 int run_file(RenderArguments& a, io::SceneFile const& file) {
     bool const only_picture = file.jobs.size() + file.postprocesses.size() == 1;
+    auto const chains = display_chains(a, file);
     for (io::PostprocessJob const& job : file.postprocesses) {
         auto const& picture = output_of(file, job);
         for (std::string const& path : output_paths(a, picture, only_picture))
@@ -165,13 +189,17 @@ int run_file(RenderArguments& a, io::SceneFile const& file) {
     auto next = file.postprocesses.begin();
     for (size_t i = 0; i < file.jobs.size(); ++i) {
         post::Picture made;
-        int const code = render_job(a, file.jobs[i], only_picture, *file.textures, made);
+        int32_t const image = file.jobs[i].target.image.index;
+        int const code =
+            render_job(a, file.jobs[i], only_picture, *file.textures, chains.at(image), made);
         if (code != kDone) return code;
-        pictures[file.jobs[i].target.image.index] = std::move(made);
+        pictures[image] = std::move(made);
         for (; next != file.postprocesses.end() && next->jobs_before == i + 1; ++next) {
             post::Picture result = post::run(*next, pictures);
-            write_picture(output_paths(a, output_of(file, *next), only_picture), result);
-            pictures[scene::pictures_of(next->postprocess).output.index] = std::move(result);
+            int32_t const output = scene::pictures_of(next->postprocess).output.index;
+            write_picture(output_paths(a, output_of(file, *next), only_picture), result,
+                          chains.at(output));
+            pictures[output] = std::move(result);
         }
         std::erase_if(pictures, [&](auto const& p) { return !is_read(p.first, next, file); });
     }
@@ -231,6 +259,7 @@ void add_render_command(CLI::App& app, Command& chosen) {
          "Pin the ray kernel's instruction set, so that different machines give the same bits")
         ->check(CLI::IsMember({"sse2", "sse4.2", "avx", "avx2", "avx512"}));
     add_texture_options(*c, a->textures);
+    add_display_options(*c, a->display);
     c->callback([a, &chosen] { chosen = [a] { return run(*a); }; });
 }
 

@@ -1,0 +1,23 @@
+// How the user asks a command to show its pictures: the parameters of `<display>` as options, which
+// go before those of a scene file.
+#pragma once
+
+#include "apps/weft/described_options.h"
+#include "io/scene_file.h"
+#include "post/display.h"
+
+namespace weft::apps {
+
+inline void add_display_options(CLI::App& command, OptionTexts& texts) {
+    add_described_options<scene::Display>(command, texts, "Display (PNG, JPEG and TIFF alone)");
+}
+
+/// The chain that the options ask for, beyond what a picture of a scene file says. Throws
+/// InputError, at the picture's <display> unless options replace a part of it.
+post::DisplayChain display_chain(OptionTexts const& texts, scene::Display display = {},
+                                 SourceLocation const& where = {});
+
+/// What the user should know about a chain, on stderr.
+void print_warning(post::DisplayChain const& chain);
+
+} // namespace weft::apps

@@ -1,0 +1,77 @@
+#!/bin/bash
+# display_test.sh WEFT SOURCE: how pictures are shown and bloomed, by scene files and options.
+set -uo pipefail
+. "$(dirname "$0")/checks.sh"
+weft=$1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+unset OCIO
+
+cat >plain.xml <<'X'
+<integrator type="path" depth="3"><sampler type="sobol" count="4"/><image id="plain"/>
+  <scene><camera type="perspective" width="60" height="40"/>
+    <light type="envmap"><texture type="constant" value="0.3,0.4,0.5"/></light>
+    <instance><shape type="sphere"/><emission type="lambertian" emission="9,4,1"/>
+      <transform><scale value="0.2"/><translate z="2"/></transform></instance></scene></integrator>
+X
+sed 's|<image id="plain"/>|<image id="plain"><display exposure="-1" view="agx"/></image>|' plain.xml >shown.xml
+expect 0 "$weft" render plain.xml -o plain.exr -o plain.png --progress none
+expect 0 "$weft" render shown.xml -o shown.exr -o shown.png -o shown.jpg -o shown.tif --progress none
+
+# The light is the same, the picture is not; options of the same names go first.
+cmp -s plain.exr shown.exr || fail "a display changed an EXR file"
+expect 1 "$weft" compare plain.png shown.png --mae 0.01
+expect 0 "$weft" render shown.xml -o a.png --progress none --exposure 0 --view standard
+expect 0 "$weft" compare a.png plain.png --mae 0
+expect 0 "$weft" render plain.xml -o a.png --progress none --exposure -1 --view agx
+expect 0 "$weft" compare a.png shown.png --mae 0
+expect 0 "$weft" render shown.xml -o a.png --progress none --set display.view=aces
+expect 1 "$weft" compare a.png shown.png --mae 0.01
+
+# A picture that is there already.
+expect 0 "$weft" display plain.exr -o a.png
+expect 0 "$weft" compare a.png plain.png --mae 0
+expect 0 "$weft" display plain.exr -o a.png -o a.tif --exposure -1 --view agx
+expect 0 "$weft" compare a.png shown.png --mae 0
+expect 0 "$weft" compare a.tif shown.tif --mae 0
+expect 0 "$weft" display plain.png -o a.png
+expect 0 "$weft" compare a.png plain.png --mae 1e-6
+expect 0 "$weft" display plain.exr -o a.png --neutral 0.3,0.4,0.5
+expect 0 "$weft" display --list-views
+has agx out
+
+# Mistakes, at their places.
+sed 's|view="agx"|view="agxx"|' shown.xml >bad.xml
+expect 2 "$weft" render bad.xml -o bad.png
+has "bad.xml:1:86: no view is called 'agxx' (did you mean 'agx'?)" err
+[ ! -e bad.png ] || fail "a picture in spite of a mistake"
+sed 's|view="agx"|veiw="agx"|' shown.xml >bad.xml
+expect 2 "$weft" render bad.xml -o bad.png
+has "did you mean 'view'?" err
+expect 2 "$weft" display plain.exr -o a.png --exposure bright
+has "--exposure expects a number" err
+expect 2 "$weft" display plain.exr -o a.png --temperature 700
+has "at least 1500" err
+expect 2 "$weft" display plain.exr -o a.png --ocio nothing.ocio
+has "nothing.ocio: expected an OpenColorIO configuration" err
+expect 2 "$weft" display plain.exr
+has "expected -o OUT" err
+expect 2 "$weft" display missing.exr -o a.png
+
+# Bloom in a scene file and by itself.
+sed 's|$||; $a <postprocess type="bloom" strength="0.3" fov="60"><ref name="input" id="plain"/><image id="bloomed"/></postprocess>' plain.xml >bloom.xml
+mkdir out_folder
+expect 0 "$weft" render bloom.xml -o out_folder --progress none
+cmp -s plain.exr out_folder/plain.exr || fail "bloom changed the picture that it reads"
+expect 0 "$weft" bloom plain.exr -o a.exr --strength 0.3 --fov 60
+expect 0 "$weft" compare a.exr out_folder/bloomed.exr --mae 0
+expect 0 "$weft" compare a.exr plain.exr --me 1e-4
+expect 1 "$weft" compare a.exr plain.exr --mae 0.001
+expect 2 "$weft" bloom plain.exr -o a.exr --kind glare --sigma 3
+has "--sigma" err
+expect 2 "$weft" bloom plain.png -o a.exr
+has "screen colours" err
+
+[ $failures = 0 ] && echo "display and bloom work"
+exit $((failures > 0))
