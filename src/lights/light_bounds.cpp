@@ -67,7 +67,9 @@ LightBounds bounds_of(DiskEmitter const& emitter, uint32_t) {
 
 LightBounds bounds_of(MeshEmitter const& emitter, uint32_t primitive) {
     auto const [low, high] = emitter.box(primitive);
-    return {low, high, emitter.normal(primitive), 0};
+    // What has no area has no normal, and no power.
+    bool const flat = emitter.area(primitive) > 0;
+    return {low, high, flat ? emitter.normal(primitive) : Vec3(0, 0, 1), 0};
 }
 
 LightBounds unite(LightBounds const& a, LightBounds const& b) {

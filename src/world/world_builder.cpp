@@ -305,6 +305,7 @@ void WorldBuilder::count() {
     WorldStatistics& s = world_.statistics_;
     s.objects = world_.objects_.size();
     s.lights = world_.lights_.size();
+    s.memory_bytes += world_.lights_.memory_bytes();
     std::set<image::Texture const*> images;
     for (auto const& image : scene_.images) images.insert(image.get());
     for (auto const* image : images) s.memory_bytes += image->memory_bytes();

@@ -191,7 +191,9 @@ std::vector<Case> cases(TemporaryFolder const& folder) {
                         kBrightSpot)},
         {"rectangle light with a bright spot, near",
          kFloor + kBall +
-             flat_light("rectangle", "<translate x=\"0.4\" z=\"1.2\"/>", "", kBrightSpot)},
+             flat_light("rectangle",
+                        "<rotate axis=\"0,1,0\" angle=\"180\"/><translate x=\"0.4\" z=\"1.2\"/>",
+                        "", kBrightSpot)},
         {"sheared sphere light with a bright spot",
          kFloor + kBall + sphere_light(shear + up, kBrightSpot)},
         {"spread of a rectangle light",

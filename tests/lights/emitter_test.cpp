@@ -40,7 +40,7 @@ TEST(Emitter, directions_follow_the_density) {
     auto const cases = emitter_cases();
     double const level = weft::testing::sidak(kAlpha, int(cases.size()));
     int const samples = 200'000;
-    double const evaluations = 3e6;
+    double const evaluations = 1.5e6;
     for (Case const& c : cases) {
         SCOPED_TRACE(c.name);
         ConeBins const bins(c);

@@ -10,6 +10,7 @@
 #include "apps/weft/texture_options.h"
 #include "image/write.h"
 #include "session/render.h"
+#include "world/lints.h"
 
 namespace weft::apps {
 
@@ -80,7 +81,8 @@ int render_job(RenderArguments& a, io::RenderJob const& job, bool only_job,
     auto const paths = output_paths(a, job, only_job);
     for (std::string const& path : paths) image::check_writable(path);
     auto const world = world::World::commit(job.scene, {a.isa, parse_size(a.size, *job.scene)});
-    for (std::string const& lint : lint_warnings(*world)) fmt::print(stderr, "warning: {}\n", lint);
+    for (std::string const& lint : world::lint_warnings(*world, job.integrator))
+        fmt::print(stderr, "warning: {}\n", lint);
 
     ProgressLine progress(progress_style(a.progress));
     a.options.on_progress = [&](session::Progress const& p) { progress.print(p); };

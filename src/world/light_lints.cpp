@@ -1,0 +1,237 @@
+// The half of the lints that is about lights.
+#include <algorithm>
+#include <fmt/format.h>
+#include <map>
+#include <set>
+
+#include "base/hash.h"
+#include "base/warp.h"
+#include "world/lints.h"
+
+namespace weft::world {
+
+namespace {
+
+/// Irradiance that no lamp gives a whole scene, in suns (about 1000 W/m^2).
+constexpr double kSun = 1000, kManySuns = 1000;
+constexpr size_t kManyTriangles = 100'000;
+
+std::string type_of(scene::Light const& light) {
+    return "<light type=\"" + match(light, [](auto const& l) { return std::string(l.info.type); }) +
+           "\">";
+}
+
+class LightLints {
+  public:
+    explicit LightLints(World const& world) : world_(world), scene_(world.scene()) {
+        RTCBounds box;
+        rtcGetSceneBounds(world.embree_scene(), &box);
+        Vec3 const extent(box.upper_x - box.lower_x, box.upper_y - box.lower_y,
+                          box.upper_z - box.lower_z);
+        if (is_finite(extent) && extent.x >= 0) radius_ = 0.5 * double(length(extent));
+    }
+
+    std::vector<std::string> all() {
+        for (size_t i = 0; i < world_.lights().size(); ++i) {
+            Light const& light = world_.lights()[int32_t(i)];
+            if (light.controls.weight == 0) continue; // on purpose
+            look_at_power(light);
+            look_around(light);
+            if (auto const* area = std::get_if<AreaLight>(&light.kind)) count_triangles(*area);
+        }
+        look_at_mirrors();
+        return std::move(warnings_);
+    }
+
+  private:
+    void look_at_power(Light const& light);
+    void look_around(Light const& light);
+    void count_triangles(AreaLight const& light);
+    void look_at_mirrors();
+
+    std::string name_of(Light const& light) const {
+        if (light.source < 0) return "a light";
+        return to_string(scene_.light_locations[size_t(light.source)]) + ": " +
+               type_of(scene_.lights[size_t(light.source)]);
+    }
+    std::string name_of(uint32_t object) const {
+        int32_t const instance = world_.object(object).source_instance;
+        std::string name = "the instance";
+        if (size_t(instance) < scene_.instance_names.size() &&
+            !scene_.instance_names[size_t(instance)].empty())
+            name += " '" + scene_.instance_names[size_t(instance)] + "'";
+        return name + " at " + to_string(scene_.instance_locations[size_t(instance)]);
+    }
+    /// A lamp hung from a group that is there a hundred times is one thing to say.
+    void warn(std::string text) {
+        if (said_.insert(text).second) warnings_.push_back(std::move(text));
+    }
+
+    bool lets_light_through(Ray const& ray, Hit const& hit) const;
+    uint32_t enclosure_of(Vec3 const& p, int32_t own) const;
+    bool separates(uint32_t object, Vec3 const& a, Vec3 const& b) const;
+
+    World const& world_;
+    scene::Scene const& scene_;
+    double radius_ = 0; ///< of the scene, in its units
+    std::vector<std::string> warnings_;
+    std::set<std::string> said_;
+};
+
+void LightLints::look_at_power(Light const& light) {
+    if (!(light.power > 0)) {
+        warn(name_of(light) + " gives no light: give it a power, intensity or emission above 0, or "
+                              "remove it");
+        return;
+    }
+    bool const infinite = std::holds_alternative<EnvironmentLight>(light.kind) ||
+                          std::holds_alternative<lights::DirectionalLight>(light.kind);
+    double const section = kPi * std::max(radius_ * radius_, 1e-12);
+    double const irradiance = double(light.power) / (infinite ? section : 4 * section);
+    if (irradiance < kManySuns * kSun) return;
+    warn(
+        fmt::format("{} lights the scene {:.1g} times as bright as the sun does: watts or radiance "
+                    "may be meant for a scene in other units; make it weaker",
+                    name_of(light), irradiance / kSun));
+}
+
+void LightLints::count_triangles(AreaLight const& light) {
+    size_t const count = match(light.emitter, [](auto const& e) { return e.primitives(); });
+    if (count <= kManyTriangles) return;
+    warn(fmt::format("{} is a light of {} triangles, each of which is sampled for itself: about {} "
+                     "MB; emission on a simpler mesh is found faster",
+                     name_of(light.object), count, count * 150 / 1'000'000));
+}
+
+/// Whether some light passes the surface that was hit.
+bool LightLints::lets_light_through(Ray const& ray, Hit const& hit) const {
+    Object const& o = world_.object(hit.object);
+    if (o.has_alpha || o.is_see_through || o.is_null || o.has_interior) return true;
+    auto const point = world_.surface(ray, hit);
+    auto const shading = world_.shade(point, -ray.direction, world_.outside());
+    return any(shading.bsdf.flags(), lobes::LobeFlags::Transmission);
+}
+
+/// The opaque object whose inside is all that can be seen from `p`; UINT32_MAX if there is none.
+/// `own`: the light's own surface, which does not count; -1 none.
+uint32_t LightLints::enclosure_of(Vec3 const& p, int32_t own) const {
+    constexpr int directions = 48;
+    uint32_t found = UINT32_MAX;
+    Rng rng(1);
+    for (int i = 0; i < directions; ++i) {
+        Ray ray;
+        ray.origin = p;
+        ray.direction = square_to_sphere({(float(i) + rng.next()) / float(directions), rng.next()});
+        Hit hit = world_.intersect_solid(ray);
+        for (int k = 0; k < 8 && hit && int32_t(hit.object) == own; ++k) {
+            ray.origin = shading::offset_origin(world_.surface(ray, hit), ray.direction);
+            hit = world_.intersect_solid(ray);
+        }
+        if (!hit || (found != UINT32_MAX && hit.object != found)) return UINT32_MAX;
+        if (dot(world_.surface(ray, hit).ng, ray.direction) < 0) return UINT32_MAX; // a front
+        if (lets_light_through(ray, hit)) return UINT32_MAX;
+        found = hit.object;
+    }
+    return found;
+}
+
+/// Whether a straight line from `a` to `b` crosses `object` an odd number of times.
+bool LightLints::separates(uint32_t object, Vec3 const& a, Vec3 const& b) const {
+    Ray ray;
+    ray.origin = a;
+    ray.direction = normalize(b - a);
+    ray.t_max = length(b - a);
+    bool odd = false;
+    for (int k = 0; k < 1000; ++k) {
+        Hit const hit = world_.intersect_solid(ray);
+        if (!hit) break;
+        odd ^= hit.object == object;
+        Vec3 const origin = shading::offset_origin(world_.surface(ray, hit), ray.direction);
+        ray.t_max -= dot(origin - ray.origin, ray.direction);
+        ray.origin = origin;
+        if (!(ray.t_max > 0)) break;
+    }
+    return odd;
+}
+
+void LightLints::look_around(Light const& light) {
+    // A few points of its surface, or where it is; what is at infinity cannot be inside of
+    // anything.
+    std::vector<Vec3> points;
+    int32_t own = -1;
+    std::visit(Overloaded{
+                   [&](AreaLight const& l) {
+                       own = int32_t(l.object);
+                       match(l.emitter, [&](auto const& e) {
+                           Vec3 const from = e.box().high + (e.box().high - e.box().low);
+                           for (uint32_t i = 0; i < 4; ++i) {
+                               uint32_t const part = e.primitives() / 4 * i;
+                               auto const s = e.sample(from, {0.2f + 0.2f * float(i), 0.4f}, part);
+                               if (s.pdf > 0) points.push_back(s.p + s.n * (1e-4f * l.extent));
+                           }
+                       });
+                   },
+                   [&](auto const& l) {
+                       if constexpr (requires { l.position; }) points.push_back(l.position);
+                   },
+               },
+               light.kind);
+    uint32_t found = UINT32_MAX;
+    for (Vec3 const& p : points) {
+        uint32_t const here = enclosure_of(p, own);
+        if (here == UINT32_MAX || (found != UINT32_MAX && found != here)) return;
+        found = here;
+    }
+    // A room may be modelled by its outside; then the camera is in it, too.
+    if (found == UINT32_MAX || !separates(found, points[0], world_.camera().position())) return;
+    warn(fmt::format("{} is inside of {}, which is opaque: none of its light gets out; move it, or "
+                     "make that transparent",
+                     name_of(light), name_of(found)));
+}
+
+/// Lights without size are points in a mirror, which no ray meets, and cast no light through glass.
+void LightLints::look_at_mirrors() {
+    size_t point_light = world_.lights().size();
+    for (size_t i = world_.lights().size(); i-- > 0;)
+        std::visit(Overloaded{
+                       [](AreaLight const&) {},
+                       [](EnvironmentLight const&) {},
+                       [&](auto const& l) {
+                           if constexpr (requires { l.sample(Vec3()).irradiance; }) point_light = i;
+                       },
+                   },
+                   world_.lights()[int32_t(i)].kind);
+    if (point_light == world_.lights().size()) return;
+    constexpr int side = 48, picks = 8;
+    std::map<uint32_t, int> seen; // object -> rays that meet it as a mirror
+    Vec2i const size = world_.camera().size();
+    for (int i = 0; i < side * side; ++i) {
+        Vec2 const raster((float(i % side) + 0.5f) / side * float(size.x),
+                          (float(i / side) + 0.5f) / side * float(size.y));
+        Ray const ray = world_.camera().ray(raster, Vec2(0.5f), 0.5f);
+        Hit const hit = world_.intersect(ray, uint32_t(i));
+        if (!hit || world_.object(hit.object).is_null) continue;
+        auto const shading =
+            world_.shade(world_.surface(ray, hit), -ray.direction, world_.outside());
+        int mirrored = 0;
+        for (int k = 0; k < picks; ++k) {
+            auto const s =
+                shading.bsdf.sample(-ray.direction, {0.5f, 0.5f, (float(k) + 0.5f) / picks});
+            mirrored += s.pdf > 0 && any(s.flags, lobes::LobeFlags::Delta) &&
+                        !any(s.flags, lobes::LobeFlags::Straight);
+        }
+        if (2 * mirrored > picks) ++seen[hit.object];
+    }
+    auto const most = std::max_element(
+        seen.begin(), seen.end(), [](auto const& a, auto const& b) { return a.second < b.second; });
+    if (most == seen.end() || most->second * 200 < side * side) return; // half a percent
+    warn(fmt::format("{} has no size, so the mirrors and clear glass of the picture (such as {}) "
+                     "neither show it nor pass its light on: use an area light, or some roughness",
+                     name_of(world_.lights()[int32_t(point_light)]), name_of(most->first)));
+}
+
+} // namespace
+
+std::vector<std::string> light_warnings(World const& world) { return LightLints(world).all(); }
+
+} // namespace weft::world

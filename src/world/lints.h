@@ -1,0 +1,22 @@
+// What in a committed scene is legal and hardly meant: each with where it is written and what to
+// do.
+//
+// Lights and surfaces are looked at as a render would, by a few thousand rays, so that what no
+// picture shows (a mirror behind the camera) raises no alarm.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "world/world.h"
+
+namespace weft::world {
+
+/// "file:line:column: what, and what to do about it". Of lights nothing is said to an integrator
+/// that draws none (`normal`, `aov`, ...).
+std::vector<std::string> lint_warnings(World const& world, scene::Integrator const& integrator);
+
+/// The part of it that is about lights.
+std::vector<std::string> light_warnings(World const& world);
+
+} // namespace weft::world

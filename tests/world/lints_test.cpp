@@ -1,0 +1,115 @@
+// What the lints say, and that they are silent about what is meant.
+#include <gtest/gtest.h>
+
+#include "tests/support/scenes.h"
+#include "world/lints.h"
+
+namespace weft::world {
+namespace {
+
+using namespace weft::testing;
+
+std::string const kCamera = R"(<camera type="perspective" width="32" height="32" fov="45">
+    <transform><lookat origin="0,1,-6" target="0,0,0" up="0,1,0"/></transform></camera>)";
+std::string const kFloor = R"(<instance><shape type="rectangle"/><bsdf type="diffuse"/>
+    <transform><scale value="4"/><rotate axis="1,0,0" angle="-90"/><translate y="-1"/></transform></instance>)";
+std::string const kLamp = R"(<light type="area"><instance><shape type="disk"/>
+    <emission type="lambertian" emission="5"/>
+    <transform><rotate axis="1,0,0" angle="90"/><translate y="3"/></transform></instance></light>)";
+
+std::vector<std::string> warnings(std::string const& contents, std::string const& folder = "",
+                                  std::string const& integrator = "type=\"path\"") {
+    auto const scene = make_scene(kCamera + contents, integrator, folder);
+    return lint_warnings(*scene.world, scene.job.integrator);
+}
+/// The only thing said holds all of `parts`.
+void expect_one(std::string const& contents, std::vector<std::string> const& parts) {
+    auto const said = warnings(contents);
+    ASSERT_EQ(said.size(), 1u) << contents;
+    for (std::string const& part : parts)
+        EXPECT_NE(said[0].find(part), std::string::npos) << said[0] << " lacks " << part;
+}
+void expect_none(std::string const& contents) {
+    auto const said = warnings(contents);
+    EXPECT_TRUE(said.empty()) << said[0];
+}
+
+std::string ball(std::string const& bsdf, std::string const& more = "") {
+    return "<instance><shape type=\"sphere\"/>" + bsdf + more + "</instance>";
+}
+std::string point(std::string const& more) { return "<light type=\"point\" " + more + "/>"; }
+
+TEST(Lints, AreSilentAboutGoodScenes) {
+    expect_none(kFloor + ball("<bsdf type=\"conductor\"/>") + kLamp);
+    expect_none(kFloor + ball("<bsdf type=\"diffuse\"/>") + point("position=\"1,3,-2\""));
+    expect_none(kFloor + R"(<light type="envmap"><texture type="constant" value="0.5"/></light>)");
+}
+
+TEST(Lints, NoLight) {
+    expect_one(kFloor, {"no light", "add a <light>"});
+    EXPECT_TRUE(warnings(kFloor, "", "type=\"normal\"").empty());
+}
+
+TEST(Lints, LightsWithoutPower) {
+    expect_one(kFloor + kLamp + point("power=\"0\""),
+               {"test:", "<light type=\"point\">", "gives no light", "or remove"});
+    expect_one(kFloor + kLamp +
+                   R"(<light type="envmap"><texture type="constant" value="0"/></light>)",
+               {"<light type=\"envmap\">", "gives no light"});
+    // Never to be sampled: that is on purpose.
+    expect_none(kFloor + kLamp + point("power=\"0\" weight=\"0\""));
+}
+
+TEST(Lints, BeyondReason) {
+    expect_one(kFloor + point("position=\"0,3,0\" power=\"1e12\""),
+               {"<light type=\"point\">", "as the sun does", "weaker"});
+    expect_one(kFloor + R"(<light type="directional" direction="0,1,0" intensity="1e8"/>)",
+               {"<light type=\"directional\">", "as the sun does"});
+    expect_none(kFloor + R"(<light type="directional" direction="0,1,0" intensity="1000"/>)");
+}
+
+TEST(Lints, LightsInsideOfGeometry) {
+    std::string const inside = point("position=\"0,0.2,0\"");
+    expect_one(
+        kFloor + kLamp + ball("<bsdf type=\"diffuse\"/>") + inside,
+        {"<light type=\"point\">", "is inside of the instance", "test:", "none of its light"});
+    std::string const small = R"(<light type="area"><instance><shape type="sphere"/>
+        <emission type="lambertian" emission="5"/><transform><scale value="0.3"/></transform></instance></light>)";
+    expect_one(kFloor + kLamp + ball("<bsdf type=\"diffuse\"/>") + small,
+               {"<light type=\"area\">", "is inside of"});
+    // Glass, thin cloth and what is partly there let it out.
+    expect_none(kFloor + kLamp + ball("<bsdf type=\"roughdielectric\"/>") + inside);
+    expect_none(kFloor + kLamp +
+                ball("<bsdf type=\"diffuse\"/>", "<float name=\"alpha\" value=\"0.5\"/>") + inside);
+    // A room that is modelled by its outside, with the camera in it.
+    expect_none(kFloor + inside +
+                ball("<bsdf type=\"diffuse\"/>", "<transform><scale value=\"20\"/></transform>"));
+    // Half in a surface, and beside one.
+    expect_none(kFloor + kLamp + ball("<bsdf type=\"diffuse\"/>") + point("position=\"0,1.2,0\""));
+}
+
+TEST(Lints, PointsInMirrors) {
+    std::string const lamp = point("position=\"1,3,-2\" power=\"60\"");
+    expect_one(kFloor + lamp + ball("<bsdf type=\"conductor\"/>"),
+               {"<light type=\"point\">", "has no size", "test:", "use an area light"});
+    expect_one(kFloor + lamp + ball("<bsdf type=\"dielectric\"/>"), {"clear glass"});
+    expect_none(kFloor + lamp + ball("<bsdf type=\"roughconductor\" roughness=\"0.3\"/>"));
+    // Behind the camera nobody sees it.
+    expect_none(
+        kFloor + lamp +
+        ball("<bsdf type=\"conductor\"/>", "<transform><translate z=\"-20\"/></transform>"));
+}
+
+TEST(Lints, LargeEmissiveMeshes) {
+    TemporaryFolder const folder;
+    write_ply(folder / "ball.ply", icosphere(7, false));
+    auto const said =
+        warnings(kFloor + R"(<light type="area"><instance><shape type="mesh" filename="ball.ply"/>
+        <emission type="lambertian" emission="5"/></instance></light>)",
+                 folder.path());
+    ASSERT_EQ(said.size(), 1u);
+    EXPECT_NE(said[0].find("a light of 327680 triangles"), std::string::npos) << said[0];
+}
+
+} // namespace
+} // namespace weft::world
