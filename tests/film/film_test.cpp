@@ -243,7 +243,6 @@ TEST(SampleSink, AddsUp) {
     sink.add({Color(1, 2, 3), 0, path});
     path.append(Bounce::Diffuse);
     sink.add({Color(0.5f), -1, path});
-    sink.add_removed(Color(7));
     EXPECT_EQ(sink.beauty(), Color(1.5f, 2.5f, 3.5f));
 }
 
@@ -269,7 +268,7 @@ TEST(SampleRecord, TellsLightApart) {
     path.append(Bounce::Glossy);
     sink.add({Color(8), 2, path, 2});
     sink.add({Color(16), 2, path, -1, true, true});
-    sink.add_removed(Color(32));
+    record.add_removed(Color(32));
     ASSERT_TRUE(record.finish());
     EXPECT_EQ(first_value(record, Aov::emission), 1);
     EXPECT_EQ(first_value(record, Aov::background), 2);
