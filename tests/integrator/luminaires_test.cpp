@@ -176,6 +176,14 @@ TEST(Luminaires, MeasuredLampsHaveTheirCandela) {
         2 * 100. / 683 / 4, level, "turned");
 }
 
+TEST(Luminaires, FluxOfAFileIsItsLumens) {
+    // The figure's file gives the flux of the formula that it was made by, for one lamp without
+    // losses; straight lines between its angles make up for the rest.
+    scene::Photometry const lamp =
+        io::read_ies(std::string(WEFT_SOURCE_DIR) + "/scenes/figures/wings.ies");
+    EXPECT_NEAR(lights::luminous_flux(lamp) / double(lamp.lamp_lumens), 1, 0.01);
+}
+
 /// A half plane with its edge over the x axis, at height 1, hides a part of the sun's disk.
 TEST(Luminaires, PenumbraOfADiskIsItsVisiblePart) {
     double const pi = std::numbers::pi, radius = 4 * pi / 180;
