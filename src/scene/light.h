@@ -93,7 +93,7 @@ struct AreaLight {
     }
 };
 
-using Light = std::variant<PointLight, DirectionalLight, SpotLight, EnvironmentLight, SkyLight,
-                           AreaLight>;
+using Light =
+    std::variant<PointLight, DirectionalLight, SpotLight, EnvironmentLight, SkyLight, AreaLight>;
 
 } // namespace weft::scene
