@@ -22,6 +22,7 @@ FIRST = {  # of albedo 0, turbidity 1
 }
 
 LICENSE = """\
+// clang-format off
 // The coefficients of the sky model of Hosek and Wilkie 2012, "An Analytic Model for Full Spectral
 // Sky-Dome Radiance", for CIE XYZ: version 1.4a of the authors' tables, made by
 // tools/make_sky_tables.py. They are published under this licence:
@@ -53,7 +54,6 @@ LICENSE = """\
 namespace weft::lights::hosek_wilkie {
 
 // [albedo 0 or 1][turbidity - 1][control point of the Bezier curve over the elevation][coefficient]
-// clang-format off
 """
 
 

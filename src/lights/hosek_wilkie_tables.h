@@ -1,3 +1,4 @@
+// clang-format off
 // The coefficients of the sky model of Hosek and Wilkie 2012, "An Analytic Model for Full Spectral
 // Sky-Dome Radiance", for CIE XYZ: version 1.4a of the authors' tables, made by
 // tools/make_sky_tables.py. They are published under this licence:
@@ -29,7 +30,6 @@
 namespace weft::lights::hosek_wilkie {
 
 // [albedo 0 or 1][turbidity - 1][control point of the Bezier curve over the elevation][coefficient]
-// clang-format off
 inline constexpr double kShapeX[2][10][6][9] = {{{{-1.117001, -0.1867262, -11.13505, 12.59865, -0.03937339, 1.167571, 0.007100686, 3.592678, 0.6083296},
  {-1.152006, -0.1926669, 6.152049, -4.770802, -0.08704701, 0.7483626, 0.03372718, 4.464592, 0.4036546},
  {-1.072371, -0.2696632, 0.2816168, 1.820571, -0.3742666, 2.080607, -0.07675295, -2.835366, 1.129329},
