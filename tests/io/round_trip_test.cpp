@@ -127,7 +127,9 @@ void round_trips(std::string const& children, Read const& read) {
         constexpr bool required =
             std::is_same_v<T, scene::ImageTexture> || std::is_same_v<T, scene::MeshShape> ||
             std::is_same_v<T, scene::IesLight> || std::is_same_v<T, scene::nodes::GeomPropValue>;
-        if constexpr (!required && !std::is_same_v<T, scene::ConstantTexture>)
+        // Of its parameters, those of one kind exclude those of the other.
+        constexpr bool exclusive = std::is_same_v<T, scene::Bloom>;
+        if constexpr (!required && !exclusive && !std::is_same_v<T, scene::ConstantTexture>)
             round_trip<T>(children,
                           [&](std::string const& text) { return std::get<T>(read(text)); });
     });
