@@ -38,7 +38,7 @@ TEST(Figures, LoadAndRender) {
         mean /= double(result.image.pixels.size());
         EXPECT_TRUE(mean > 0.02 && mean < 2) << "badly exposed: " << mean;
     }
-    EXPECT_EQ(count, 9);
+    EXPECT_EQ(count, 15);
 }
 
 /// Both halves of the picture by blocks of pixels: the mean of each over many seeds, whose
