@@ -3,14 +3,17 @@
 #include <fmt/format.h>
 #include <memory>
 
+#include "apps/weft/checkpoint.h"
 #include "apps/weft/commands.h"
 #include "apps/weft/interrupt.h"
+#include "apps/weft/live_view.h"
 #include "apps/weft/picture_file.h"
 #include "apps/weft/progress_line.h"
 #include "apps/weft/scene_loading.h"
 #include "apps/weft/texture_options.h"
+#include "image/atomic_file.h"
 #include "image/write.h"
-#include "session/render.h"
+#include "session/render_state.h"
 
 namespace weft::apps {
 
@@ -26,8 +29,47 @@ struct RenderArguments {
     std::vector<std::string> overrides, aovs;
     std::string isa;
     TextureArguments textures;
+    CheckpointArguments checkpoint;
+    std::string shard, samples, time, watch, tev;
+    bool preview = false, profile = false;
     session::RenderOptions options;
 };
+
+/// "K/N" and "A:B".
+session::Part parse_part(std::string const& shard, std::string const& samples) {
+    session::Part part;
+    auto const pair = [](std::string const& text, char between, auto& a, auto& b) {
+        size_t const at = text.find(between);
+        return at != std::string::npos && schema::TextForm<int>::read(text.substr(0, at), a) &&
+               schema::TextForm<int>::read(text.substr(at + 1), b);
+    };
+    if (!shard.empty() &&
+        (!pair(shard, '/', part.shard, part.shards) || part.shard < 1 || part.shard > part.shards))
+        throw InputError("--shard expects K/N with K from 1 to N, found '" + shard + "'");
+    int first = 0, last = 0;
+    if (!samples.empty()) {
+        if (!pair(samples, ':', first, last) || first < 0 || last <= first)
+            throw InputError("--samples expects A:B, from sample A to before sample B, found '" +
+                             samples + "'");
+        part.first = uint32_t(first);
+        part.last = uint32_t(last);
+    }
+    return part;
+}
+
+/// What cannot be had together.
+void check_part(RenderArguments const& a, io::RenderJob const& job) {
+    session::Part const& part = a.options.part;
+    if (part.is_whole()) return;
+    if (a.options.noise > 0 || a.options.seconds > 0)
+        throw InputError("--noise and --time look at the whole picture: parts of one (--shard, "
+                         "--samples) expect a number of samples");
+    uint32_t const limit = session::sample_limit(job, a.options);
+    if (part.last > limit)
+        throw InputError(fmt::format("--samples expects a part of the {} samples per pixel, found "
+                                     "'{}'; --spp says how many there are",
+                                     limit, a.samples));
+}
 
 /// Four comma-separated pixel coordinates.
 film::Region parse_crop(std::string const& text) {
@@ -39,16 +81,26 @@ film::Region parse_crop(std::string const& text) {
     return {{int((*v)[0]), int((*v)[1])}, {int((*v)[2]), int((*v)[3])}};
 }
 
+/// What a part of a picture is called where nothing else is said: "shard-2-of-4.samples-0-32.weft".
+std::string part_extension(session::Part const& part) {
+    if (part.is_whole()) return ".exr";
+    std::string text;
+    if (part.shards > 1) text = fmt::format(".shard-{}-of-{}", part.shard, part.shards);
+    if (part.last > 0) text += fmt::format(".samples-{}-{}", part.first, part.last);
+    return text + ".weft";
+}
+
 /// Where a job's pictures go: what the user asked for, or NAME.exr beside the scene.
 std::vector<std::string> output_paths(RenderArguments const& a, io::RenderJob const& job,
                                       bool only_job) {
     std::string const stem =
         job.image_name.empty() ? fs::path(a.scene).stem().string() : job.image_name;
-    if (a.outputs.empty()) return {(fs::path(job.folder) / (stem + ".exr")).string()};
+    if (a.outputs.empty())
+        return {(fs::path(job.folder) / (stem + part_extension(a.options.part))).string()};
     std::vector<std::string> paths;
     for (std::string const& output : a.outputs) {
         if (fs::is_directory(output))
-            paths.push_back((fs::path(output) / (stem + ".exr")).string());
+            paths.push_back((fs::path(output) / (stem + part_extension(a.options.part))).string());
         else if (only_job)
             paths.push_back(output);
         else
@@ -59,9 +111,24 @@ std::vector<std::string> output_paths(RenderArguments const& a, io::RenderJob co
     return paths;
 }
 
+void check_outputs(std::vector<std::string> const& paths, session::Part const& part) {
+    for (std::string const& path : paths) {
+        if (part.is_whole()) {
+            image::check_writable(path);
+            continue;
+        }
+        if (fs::path(path).extension() != ".weft")
+            throw InputError("-o expects a .weft file for a part of a picture (`weft merge` joins "
+                             "parts), found '" +
+                             path + "'");
+        image::probe_folder(path);
+    }
+}
+
 /// AOVs need a file that can hold them.
 void check_aovs(RenderArguments const& a, io::RenderJob const& job,
                 std::vector<std::string> const& paths) {
+    if (!a.options.part.is_whole()) return;
     bool const wanted = !a.options.aovs.empty() || !session::wanted_aovs(job.integrator).empty();
     auto const is_exr = [](std::string const& path) {
         return fs::path(path).extension() == ".exr";
@@ -86,43 +153,95 @@ void report_bad_samples(session::RenderResult const& r, uint32_t seed) {
                    b.sample, seed, b.value.r, b.value.g, b.value.b);
 }
 
-int render_job(RenderArguments& a, io::RenderJob const& job, bool only_job,
-               image::TextureCache const& textures) {
+void write_part(std::vector<std::string> const& paths, session::RenderResult&& result,
+                world::World const& world, io::RenderJob const& job,
+                session::RenderOptions const& options) {
+    std::string note = header_text(picture_header(result, job, world, options.seed));
+    session::RenderState state = session::to_state(std::move(result), world, job, options);
+    state.note = std::move(note);
+    for (std::string const& path : paths) {
+        session::save_state(path, state);
+        fmt::print("{}\n", path);
+    }
+}
+
+/// Writes what there is, says what was reached, and returns the exit code.
+int finish(session::RenderOptions const& options, std::vector<std::string> const& paths,
+           io::RenderJob const& job, world::World const& world, ProgressLine& progress,
+           session::RenderResult&& result) {
+    report_bad_samples(result, options.seed);
+    bool const whole = options.part.is_whole();
+    if (result.cancelled && (!whole || result.least_samples == 0)) {
+        fmt::print(stderr, "stopped before {}: no file is overwritten\n",
+                   whole ? "every pixel had a sample" : "the part was done");
+        return kInterrupted;
+    }
+    progress.phase("write");
+    if (whole) {
+        image::ExrHeader const header = picture_header(result, job, world, options.seed);
+        for (std::string const& path : paths) {
+            write_picture(path, result.film, header);
+            fmt::print("{}\n", path);
+        }
+    }
+    print_summary(result, options);
+    progress.done(result);
+    bool const cancelled = result.cancelled;
+    if (!whole) write_part(paths, std::move(result), world, job, options);
+    return cancelled ? kInterrupted : kDone;
+}
+
+int render_job(RenderArguments const& a, io::RenderJob const& job, bool only_job,
+               image::TextureCache const& textures, ProgressLine& progress) {
     auto const paths = output_paths(a, job, only_job);
-    for (std::string const& path : paths) image::check_writable(path);
+    check_outputs(paths, a.options.part);
     check_aovs(a, job, paths);
+    check_part(a, job);
+    progress.phase("commit");
     auto const world = world::World::commit(job.scene, {a.isa, parse_size(a.size, *job.scene)});
     for (std::string const& lint : lint_warnings(*world)) fmt::print(stderr, "warning: {}\n", lint);
 
-    ProgressLine progress(progress_style(a.progress));
-    a.options.on_progress = [&](session::Progress const& p) { progress.print(p); };
-    if (!a.crop.empty()) a.options.crop = parse_crop(a.crop);
+    session::RenderOptions options = a.options;
+    options.on_progress = [&](session::Progress const& p) { progress.print(p); };
+    if (!a.crop.empty()) options.crop = parse_crop(a.crop);
     GracefulInterrupt const interrupt;
-    a.options.cancel = &interrupt.flag();
-    session::RenderResult const result = session::render(*world, job, a.options);
+    options.cancel = &interrupt.flag();
+    std::optional<Checkpoint> checkpoint;
+    if (a.checkpoint.wanted()) {
+        if (!only_job && !a.checkpoint.file.empty())
+            throw InputError("--checkpoint-file expects a scene with one picture; --checkpoint "
+                             "names a file for each");
+        checkpoint.emplace(a.checkpoint, paths.front(),
+                           session::starting_state(*world, job, options));
+        options.resume = checkpoint->found();
+        options.watchers.push_back(checkpoint->watcher());
+    }
+    if (!a.watch.empty()) options.watchers.push_back(png_watcher(a.watch));
+    std::optional<TevClient> tev;
+    if (!a.tev.empty()) {
+        tev.emplace(a.tev, paths.front());
+        options.watchers.push_back(tev->watcher());
+    }
+    progress.phase("render");
+    session::RenderResult result = session::render(*world, job, options);
     if (result.cancelled) progress.stop();
-    report_bad_samples(result, a.options.seed);
+    if (tev) tev->show(result.film);
+    if (!a.watch.empty()) image::write_image(a.watch, result.image);
     if (std::string const failure = textures.failure(); !failure.empty())
         fmt::print(stderr, "warning: a texture was lost during the render: {}\n", failure);
-    if (result.least_samples == 0) {
-        fmt::print(stderr, "stopped before every pixel had a sample: no file is overwritten\n");
-        return kInterrupted;
+    if (checkpoint && result.cancelled) {
+        session::RenderResult copy = result;
+        checkpoint->save(session::to_state(std::move(copy), *world, job, options));
+        fmt::print(stderr, "{} keeps what is done: the same command goes on from there\n",
+                   checkpoint->path());
     }
-    for (std::string const& path : paths) {
-        write_picture(path, result, job, *world, a.options.seed);
-        fmt::print("{}\n", path);
-    }
-    fmt::print(stderr, "{} x {} pixels, {} samples each: {}, {} samples/s\n", result.region.width(),
-               result.region.height(), result.least_samples, duration_text(result.seconds),
-               count_text(result.pixel_samples / std::max(result.seconds, 1e-9)));
-    if (!result.cancelled) return kDone;
-    fmt::print(stderr,
-               "stopped; what is done is written: {} of {} samples in each pixel, {:.1f} on the "
-               "average\n",
-               result.least_samples, result.samples,
-               result.pixel_samples / (double(result.region.width()) * result.region.height()));
-    return kInterrupted;
+    int const code = finish(options, paths, job, *world, progress, std::move(result));
+    if (checkpoint && code == kDone) checkpoint->remove();
+    return code;
 }
+
+/// Enough for light and materials to be told apart.
+constexpr int kPreviewSamples = 8;
 
 int run(RenderArguments& a) {
     if (std::find(a.aovs.begin(), a.aovs.end(), "list") != a.aovs.end()) {
@@ -131,14 +250,25 @@ int run(RenderArguments& a) {
     }
     if (a.scene.empty()) throw InputError("weft render expects a scene file, found none");
     a.options.aovs = parse_aovs(a.aovs);
+    a.options.part = parse_part(a.shard, a.samples);
+    a.options.version = WEFT_VERSION;
+    a.options.kernel = a.isa;
+    if (!a.time.empty()) a.options.seconds = parse_duration(a.time, "--time");
+    if (a.preview) {
+        if (a.size.empty()) a.size = "50%";
+        if (a.options.spp == 0) a.options.spp = kPreviewSamples;
+    }
+    ProgressLine progress(progress_style(a.progress));
+    progress.phase("read");
     a.textures.show_conversion = a.progress != "none" && a.progress != "json";
     io::SceneFile const file =
         io::read_scene_file(a.scene, a.overrides, make_texture_cache(a.textures));
     for (std::string const& warning : file.warnings) fmt::print(stderr, "warning: {}\n", warning);
     for (io::RenderJob const& job : file.jobs)
-        if (int const code = render_job(a, job, file.jobs.size() == 1, *file.textures);
+        if (int const code = render_job(a, job, file.jobs.size() == 1, *file.textures, progress);
             code != kDone)
             return code;
+    if (a.profile) progress.print_profile();
     return kDone;
 }
 
@@ -180,6 +310,33 @@ void add_render_command(CLI::App& app, Command& chosen) {
          "--isa", a->isa,
          "Pin the ray kernel's instruction set, so that different machines give the same bits")
         ->check(CLI::IsMember({"sse2", "sse4.2", "avx", "avx2", "avx512"}));
+    c->add_option("--noise", a->options.noise,
+                  "Render until the estimated relative error is below this everywhere, for example "
+                  "0.02; --spp is then the most that a pixel gets (65536 if not said)")
+        ->type_name("X")
+        ->check(CLI::Range(1e-5, 10.0));
+    c->add_option("--time", a->time,
+                  "Render until this time is up, in whole passes: 90s, 10m, 2h; with --noise and "
+                  "--spp, whichever comes first")
+        ->type_name("TIME");
+    add_checkpoint_options(*c, a->checkpoint);
+    c->add_option("--shard", a->shard,
+                  "Render every N-th tile only, from the K-th; `weft merge` joins the parts")
+        ->type_name("K/N");
+    c->add_option("--samples", a->samples,
+                  "Render these of each pixel's samples only, from A to before B; `weft merge` "
+                  "joins the parts")
+        ->type_name("A:B");
+    c->add_flag("--preview", a->preview,
+                "A quick look: half the size and 8 samples per pixel, unless --size and --spp say "
+                "otherwise; all materials and lights as they are");
+    c->add_option("--watch", a->watch,
+                  "Write the picture so far to this file every two seconds, for a viewer that "
+                  "reloads it")
+        ->type_name("PNG");
+    c->add_option("--tev", a->tev, "Show the picture so far in the viewer tev, every second")
+        ->type_name("HOST:PORT");
+    c->add_flag("--profile", a->profile, "Say at the end where the time went, by phase");
     add_texture_options(*c, a->textures);
     c->callback([a, &chosen] { chosen = [a] { return run(*a); }; });
 }
