@@ -54,7 +54,7 @@ for bad in "--shard 4/3" "--shard 2" "--samples 3:3" "--samples 0:25" "--shard 1
 done
 
 # Killed at several moments, by a signal that nobody can catch.
-common=(s.xml --spp 1500 --threads 2 --progress none)
+common=(s.xml --spp 300 --threads 2 --progress none)
 expect 0 "$weft" render "${common[@]}" -o long.exr
 python3 - "$weft" "${common[@]}" <<'P' || fail "a killed render did not go on as it should"
 import os, random, subprocess, sys, time

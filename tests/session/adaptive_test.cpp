@@ -167,7 +167,7 @@ double as_normal(double t, double freedom) {
 }
 
 TEST(Adaptive, HasTheMeansOfFixedSampling) {
-    constexpr int renders = 16;
+    constexpr int renders = 10;
     std::vector<NamedScene> const all = scenes();
     size_t tests = 0;
     double least = 1;
@@ -175,8 +175,8 @@ TEST(Adaptive, HasTheMeansOfFixedSampling) {
     for (NamedScene const& s : all) {
         TestScene const scene =
             make_scene(s.contents, "type=\"path\" depth=\"6\"", "", "type=\"sobol\" count=\"64\"");
-        auto const adaptive = over_seeds(scene, with(256, 0.25, 100), renders),
-                   fixed = over_seeds(scene, with(64, 0, 900), renders);
+        auto const adaptive = over_seeds(scene, with(128, 0.35, 100), renders),
+                   fixed = over_seeds(scene, with(48, 0, 900), renders);
         for (size_t b = 0; b < fixed.size(); ++b, ++tests) {
             Estimate const &x = adaptive[b], &y = fixed[b];
             // Where there is no noise, sums of different numbers of floats differ in rounding.
