@@ -27,7 +27,7 @@ set(weft_libraries_io pugixml::pugixml nlohmann_json::nlohmann_json fmt::fmt)
 set(weft_libraries_schema nlohmann_json::nlohmann_json fmt::fmt)
 set(weft_libraries_world weft_embree TBB::tbb)
 set(weft_libraries_post OpenColorIO::OpenColorIO TBB::tbb weft_dnnl ${CMAKE_DL_LIBS})
-set(weft_libraries_session TBB::tbb fmt::fmt Threads::Threads)
+set(weft_libraries_session TBB::tbb fmt::fmt nlohmann_json::nlohmann_json Threads::Threads)
 
 function(weft_room name)
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cpp)

@@ -1,7 +1,8 @@
 #include "session/render.h"
 
 #include <algorithm>
-#include <chrono>
+#include <cmath>
+#include <limits>
 #include <mutex>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
@@ -9,80 +10,60 @@
 #include <unistd.h>
 
 #include "integrator/pixel_renderer.h"
+#include "session/adaptive.h"
+#include "session/gate.h"
+#include "session/progress_meter.h"
+#include "session/render_state.h"
 #include "session/scene_tags.h"
+#include "session/watching.h"
 
 namespace weft::session {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
 /// The end of the pass that starts at sample `from`: 1, 2, 4, ... so that a first picture is
 /// there soon, and then as many as keep tiles long enough not to matter.
-uint32_t pass_end(uint32_t from, uint32_t total) {
+uint32_t pass_end(uint32_t from, uint32_t limit) {
     constexpr uint32_t longest = 64;
-    return std::min(total, from + std::clamp(from, 1u, longest));
+    return std::min(limit, from + std::clamp(from, 1u, longest));
 }
-
-/// Reports progress from whichever thread comes by first after a fifth of a second.
-class ProgressMeter {
-  public:
-    ProgressMeter(RenderOptions const& options, double total) : options_(options), total_(total) {}
-
-    void add(double pixel_samples, uint32_t samples_done) {
-        double const done = done_.fetch_add(pixel_samples) + pixel_samples;
-        if (!options_.on_progress) return;
-        std::unique_lock lock(mutex_, std::try_to_lock);
-        double const now = seconds_since(start_);
-        if (!lock || now - last_ < 0.2) return;
-        last_ = now;
-        options_.on_progress(
-            {done / total_, done / now, now, now * (total_ / done - 1), samples_done});
-    }
-    void finish(uint32_t samples) {
-        double const now = seconds();
-        if (options_.on_progress) options_.on_progress({1, done() / now, now, 0, samples});
-    }
-    double done() const { return done_.load(); }
-    double seconds() const { return seconds_since(start_); }
-
-  private:
-    RenderOptions const& options_;
-    double total_, last_ = 0;
-    std::atomic<double> done_{0};
-    std::mutex mutex_;
-    Clock::time_point start_ = Clock::now();
-};
 
 class TileRenderer {
   public:
-    TileRenderer(integrator::PixelRenderer const& renderer, film::Film& film, RenderResult& result)
-        : renderer_(renderer), film_(film), result_(result) {}
+    TileRenderer(integrator::PixelRenderer const& renderer, RenderOptions const& options,
+                 RenderResult& result, Gate& gate)
+        : renderer_(renderer), first_(options.part.first), film_(result.film), result_(result),
+          gate_(gate), grid_(result.region) {}
 
-    /// Adds the samples [from, to) to each pixel of the tile, row by row while `go_on()`. Returns
-    /// how many it made.
+    /// Gives the tile's pixels, where their blocks are active, the samples that they lack of the
+    /// pass at hand; row by row while `go_on()`. Returns how many it made.
     template <class GoOn>
-    double render(film::Region const& tile, uint32_t from, uint32_t to, GoOn const& go_on) {
+    double render(film::Region const& tile, GoOn const& go_on) {
         film::SampleRecord own(film_.layout(), result_.tags);
         film::SampleRecord* const record = film_.layout().needs_record() ? &own : nullptr;
-        int y = tile.from.y;
-        for (; y < tile.to.y && go_on(); ++y)
-            for (int x = tile.from.x; x < tile.to.x; ++x)
-                for (uint32_t s = from; s < to; ++s) {
-                    Color const c = renderer_.sample({x, y}, s, record);
-                    bool const good = is_good(c) && (!record || record->finish());
-                    if (!good) [[unlikely]]
-                        report({{x, y}, s, c}, record);
-                    film_.add(x, y, s, good ? c : Color(0), record);
-                }
-        return double(y - tile.from.y) * tile.width() * (to - from);
+        double made = 0;
+        for (int y = tile.from.y; y < tile.to.y && go_on(); ++y) {
+            auto const working = gate_.enter();
+            PassState const& pass = result_.pass;
+            for (int x = tile.from.x; x < tile.to.x; ++x) {
+                if (!pass.active.empty() && !pass.active[grid_.index(x, y)]) continue;
+                uint32_t const from = first_ + film_.counts(x, y).all;
+                for (uint32_t s = from; s < pass.to; ++s) add({x, y}, s, record);
+                made += pass.to - std::min(from, pass.to);
+            }
+        }
+        return made;
     }
 
   private:
+    void add(Vec2i pixel, uint32_t s, film::SampleRecord* record) {
+        Color const c = renderer_.sample(pixel, s, record);
+        bool const good = is_good(c) && (!record || record->finish());
+        if (!good) [[unlikely]]
+            report({pixel, s, c}, record);
+        film_.add(pixel.x, pixel.y, s, good ? c : Color(0), record);
+    }
+
     bool is_good(Color const& c) const {
         return is_finite(c) && (min_component(c) >= 0 || !renderer_.follows_light());
     }
@@ -100,58 +81,21 @@ class TileRenderer {
     }
 
     integrator::PixelRenderer const& renderer_;
+    uint32_t first_;
     film::Film& film_;
     RenderResult& result_;
+    Gate& gate_;
+    BlockGrid grid_;
     std::mutex mutex_;
 };
 
-std::vector<film::Region> make_tiles(film::Region const& region, int size) {
-    std::vector<film::Region> tiles;
-    for (int y = region.from.y; y < region.to.y; y += size)
-        for (int x = region.from.x; x < region.to.x; x += size)
-            tiles.push_back(
-                {{x, y}, {std::min(x + size, region.to.x), std::min(y + size, region.to.y)}});
-    return tiles;
-}
-
-film::Region region_of(world::World const& world, RenderOptions const& options) {
-    Vec2i const size = world.camera().size();
-    if (!options.crop) return {{0, 0}, size};
-    film::Region const& c = *options.crop;
-    bool const inside = c.from.x >= 0 && c.from.y >= 0 && c.to.x <= size.x && c.to.y <= size.y;
-    if (!inside || c.width() <= 0 || c.height() <= 0)
-        throw InputError(
-            "--crop expects a region inside of the picture of " + std::to_string(size.x) + " x " +
-            std::to_string(size.y) + " pixels, found " + std::to_string(c.from.x) + "," +
-            std::to_string(c.from.y) + "," + std::to_string(c.to.x) + "," + std::to_string(c.to.y));
-    return c;
-}
-
-film::Layout make_layout(io::RenderJob const& job, RenderOptions const& options,
-                         film::SceneTags const& tags) {
-    auto const from_scene = wanted_aovs(job.integrator);
-    std::vector<film::Aov> aovs(from_scene.begin(), from_scene.end());
-    aovs.insert(aovs.end(), options.aovs.begin(), options.aovs.end());
-    film::LayoutOptions o;
-    o.half_sums = options.half_sums;
-    o.light_groups = tags.light_groups;
-    match(job.integrator, [&](auto const& i) {
-        if constexpr (requires { i.outputs; })
-            o.cryptomatte_levels = i.outputs.cryptomatte_levels;
-        else if (!aovs.empty())
-            throw InputError(job.where, "expected an integrator that follows light for AOVs, found "
-                                        "<integrator type=\"" +
-                                            std::string(i.info.type) + "\">");
-    });
-    return film::Layout(aovs, std::move(o));
-}
-
 /// Says so before the film's sums and the picture made of them ask for more than the machine has.
-void check_memory(film::Region const& region, film::Layout const& layout,
+void check_memory(film::Region const& region, film::Layout const& layout, bool watched,
                   SourceLocation const& where) {
-    double const needed = double(region.width()) * region.height() *
-                          double(film::Film::bytes_per_pixel(layout) +
-                                 (3 + layout.channel_names().size()) * sizeof(float));
+    // Watchers look at a copy of the film, and a checkpoint is a second one in bytes.
+    double const film = double(film::Film::bytes_per_pixel(layout)) * (watched ? 3 : 1);
+    double const picture = double(3 + layout.channel_names().size()) * sizeof(float);
+    double const needed = double(region.width()) * region.height() * (film + picture);
     double const there = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE));
     auto const gib = [](double bytes) { return std::to_string(int64_t(bytes / (1 << 30))); };
     if (there > 0 && needed > there)
@@ -174,49 +118,242 @@ std::span<film::Aov const> wanted_aovs(scene::Integrator const& integrator) {
     });
 }
 
+film::Region region_of(world::World const& world, RenderOptions const& options) {
+    Vec2i const size = world.camera().size();
+    if (!options.crop) return {{0, 0}, size};
+    film::Region const& c = *options.crop;
+    bool const inside = c.from.x >= 0 && c.from.y >= 0 && c.to.x <= size.x && c.to.y <= size.y;
+    if (!inside || c.width() <= 0 || c.height() <= 0)
+        throw InputError(
+            "--crop expects a region inside of the picture of " + std::to_string(size.x) + " x " +
+            std::to_string(size.y) + " pixels, found " + std::to_string(c.from.x) + "," +
+            std::to_string(c.from.y) + "," + std::to_string(c.to.x) + "," + std::to_string(c.to.y));
+    return c;
+}
+
+film::Layout make_layout(world::World const& world, io::RenderJob const& job,
+                         RenderOptions const& options) {
+    film::SceneTags const tags = scene_tags(world);
+    auto const from_scene = wanted_aovs(job.integrator);
+    std::vector<film::Aov> aovs(from_scene.begin(), from_scene.end());
+    aovs.insert(aovs.end(), options.aovs.begin(), options.aovs.end());
+    film::LayoutOptions o;
+    o.half_sums = options.half_sums || options.noise > 0;
+    o.light_groups = tags.light_groups;
+    match(job.integrator, [&](auto const& i) {
+        if constexpr (requires { i.outputs; })
+            o.cryptomatte_levels = i.outputs.cryptomatte_levels;
+        else if (!aovs.empty())
+            throw InputError(job.where, "expected an integrator that follows light for AOVs, found "
+                                        "<integrator type=\"" +
+                                            std::string(i.info.type) + "\">");
+    });
+    return film::Layout(aovs, std::move(o));
+}
+
+/// Where a render without an own number of samples ends at the latest.
+constexpr uint32_t kMostSamples = 1 << 16;
+
+uint32_t sample_limit(io::RenderJob const& job, RenderOptions const& options) {
+    if (options.spp > 0) return uint32_t(options.spp);
+    return options.noise > 0 || options.seconds > 0 ? kMostSamples
+                                                    : uint32_t(sample_count(job.sampler));
+}
+
+namespace {
+
+/// The passes of one render, and what it decides between them.
+class Passes {
+  public:
+    Passes(RenderOptions const& options, RenderResult& result, Gate& gate, ProgressMeter& meter)
+        : options_(options), result_(result), gate_(gate), meter_(meter),
+          first_(options.part.first),
+          limit_(options.part.last > 0 ? options.part.last : result.samples) {
+        if (result.pass.to == 0) result.pass.to = next_end(first_);
+    }
+
+    /// Whether there is another pass after the one that is done.
+    bool go_on() {
+        PassState next;
+        uint32_t const done = result_.pass.to;
+        if (options_.noise > 0 && !decide(done, next)) return stop(StoppedBy::noise);
+        if (done >= limit_) return stop(StoppedBy::samples);
+        next.to = next_end(done);
+        if (options_.seconds > 0 && !fits(done, next)) return stop(StoppedBy::time);
+        auto const standing_still = gate_.stop();
+        result_.pass = std::move(next);
+        return true;
+    }
+
+  private:
+    uint32_t next_end(uint32_t from) const {
+        return options_.noise > 0 ? adaptive_pass_end(from, limit_)
+                                  : first_ + pass_end(from - first_, limit_ - first_);
+    }
+
+    bool stop(StoppedBy why) {
+        result_.stopped_by = why;
+        return false;
+    }
+
+    /// False where the noise is reached everywhere.
+    bool decide(uint32_t done, PassState& next) {
+        if (done < std::min(kLeastSamples, limit_)) return true;
+        std::vector<float> const errors = block_errors(result_.film);
+        double const noise = double(*std::max_element(errors.begin(), errors.end()));
+        result_.noise = noise;
+        meter_.reached(noise);
+        meter_.expect(meter_.done() + samples_needed(result_.film, errors, options_.noise, limit_));
+        next.active = active_blocks(result_.film, errors, options_.noise, limit_);
+        return noise > options_.noise;
+    }
+
+    /// Shortens the next pass to what the time left is likely to hold; false where that is none.
+    bool fits(uint32_t done, PassState& next) const {
+        double const left = options_.seconds - meter_.seconds();
+        double pixels = double(result_.region.pixels()) / options_.part.shards;
+        if (!next.active.empty()) {
+            BlockGrid const grid(result_.region);
+            pixels = 0;
+            for (size_t i = 0; i < next.active.size(); ++i)
+                if (next.active[i]) pixels += double(grid.block(i).pixels());
+        }
+        double const samples = std::floor(left * meter_.rate() / pixels);
+        if (!(samples >= 1)) return false;
+        next.to = uint32_t(std::min(double(next.to), double(done) + samples));
+        return true;
+    }
+
+    RenderOptions const& options_;
+    RenderResult& result_;
+    Gate& gate_;
+    ProgressMeter& meter_;
+    uint32_t first_, limit_;
+};
+
+/// Takes over what an earlier render left.
+void resume(RenderState const& state, RenderResult& result) {
+    result.film = state.film;
+    result.pass = state.pass;
+    result.bad_samples = state.bad_samples;
+    result.first_bad_samples = state.first_bad_samples;
+}
+
+double pixel_samples(film::Film const& film) {
+    film::Region const& r = film.region();
+    double sum = 0;
+    for (int y = r.from.y; y < r.to.y; ++y)
+        for (int x = r.from.x; x < r.to.x; ++x) sum += film.counts(x, y).all;
+    return sum;
+}
+
+/// Samples that the whole render is to make, where that is known before it starts.
+double expected_samples(RenderOptions const& options, RenderResult const& result,
+                        std::vector<film::Region> const& tiles) {
+    if (options.noise > 0) return std::numeric_limits<double>::quiet_NaN();
+    double pixels = 0;
+    for (film::Region const& tile : tiles) pixels += double(tile.pixels());
+    uint32_t const last = options.part.last > 0 ? options.part.last : result.samples;
+    return pixels * (last - options.part.first);
+}
+
+RenderState state_of(RenderResult const& result, Identity const& identity,
+                     RenderOptions const& options) {
+    RenderState s;
+    s.identity = identity;
+    s.part = options.part;
+    s.tile_size = options.tile_size;
+    s.samples = result.samples;
+    s.pass = result.pass;
+    s.seconds = result.seconds;
+    s.bad_samples = result.bad_samples;
+    s.first_bad_samples = result.first_bad_samples;
+    return s;
+}
+
+} // namespace
+
+RenderState starting_state(world::World const& world, io::RenderJob const& job,
+                           RenderOptions const& options) {
+    RenderResult fresh;
+    fresh.samples = sample_limit(job, options);
+    fresh.film = film::Film(region_of(world, options), make_layout(world, job, options));
+    return to_state(std::move(fresh), world, job, options);
+}
+
+RenderState to_state(RenderResult&& result, world::World const& world, io::RenderJob const& job,
+                     RenderOptions const& options) {
+    RenderState state = state_of(result, identify(world, job, options), options);
+    state.film = std::move(result.film);
+    return state;
+}
+
 RenderResult render(world::World const& world, io::RenderJob const& job,
                     RenderOptions const& options) {
     RenderResult result;
     result.region = region_of(world, options);
     result.tags = scene_tags(world);
-    film::Layout const layout = make_layout(job, options, result.tags);
-    check_memory(result.region, layout, job.where);
-    result.samples = uint32_t(options.spp > 0 ? options.spp : sample_count(job.sampler));
+    film::Layout const layout = make_layout(world, job, options);
+    check_memory(result.region, layout, !options.watchers.empty(), job.where);
+    result.samples = sample_limit(job, options);
+    int const footprint = options.spp > 0 ? options.spp : sample_count(job.sampler);
     integrator::PixelRenderer const renderer(world, job.integrator, job.sampler, options.seed,
-                                             int(result.samples));
+                                             footprint);
     result.film = film::Film(result.region, layout);
-    TileRenderer tiles(renderer, result.film, result);
-    auto const regions = make_tiles(result.region, options.tile_size);
-    double const pixels = double(result.region.width()) * result.region.height();
-    ProgressMeter meter(options, pixels * result.samples);
+    double seconds_before = 0;
+    if (options.resume) {
+        resume(*options.resume, result);
+        seconds_before = options.resume->seconds;
+    }
+    Gate gate;
+    TileRenderer tiles(renderer, options, result, gate);
+    auto const regions = make_tiles(result.region, options.tile_size, options.part);
+    ProgressMeter meter(options, pixel_samples(result.film), seconds_before);
+    meter.expect(expected_samples(options, result, regions));
+    Passes passes(options, result, gate, meter);
     auto cancelled = [&] {
         return options.cancel && options.cancel->load(std::memory_order_relaxed);
     };
+    uint32_t samples_done = result.film.least_samples();
+    auto const render_pass = [&] {
+        tbb::parallel_for(
+            tbb::blocked_range<size_t>(0, regions.size(), 1),
+            [&](auto const& range) {
+                for (size_t i = range.begin(); i != range.end() && !cancelled(); ++i)
+                    meter.add(tiles.render(regions[i], [&] { return !cancelled(); }), samples_done);
+            },
+            tbb::simple_partitioner());
+        if (!cancelled()) samples_done = result.pass.to;
+    };
 
+    Identity const identity = options.watchers.empty() ? Identity() : identify(world, job, options);
+    std::optional<Watching> watching(std::in_place, options.watchers, [&] {
+        auto const standing_still = gate.stop();
+        RenderState state = state_of(result, identity, options);
+        state.film = result.film;
+        state.seconds = meter.all_seconds();
+        return state;
+    });
     int const threads = options.threads > 0
                             ? options.threads
                             : int(std::max(1u, std::thread::hardware_concurrency()));
     tbb::task_arena arena(threads);
+    bool done = false;
     arena.execute([&] {
-        for (uint32_t from = 0; from < result.samples && !cancelled();
-             from = pass_end(from, result.samples)) {
-            uint32_t const to = pass_end(from, result.samples);
-            tbb::parallel_for(
-                tbb::blocked_range<size_t>(0, regions.size(), 1),
-                [&](auto const& range) {
-                    for (size_t i = range.begin(); i != range.end() && !cancelled(); ++i)
-                        meter.add(tiles.render(regions[i], from, to, [&] { return !cancelled(); }),
-                                  from);
-                },
-                tbb::simple_partitioner());
+        while (!done && !cancelled()) {
+            render_pass();
+            done = !cancelled() && !passes.go_on();
         }
     });
-    result.cancelled = cancelled() && meter.done() < pixels * result.samples;
-    if (!result.cancelled) meter.finish(result.samples);
+    watching.reset();
+    result.cancelled = !done && !(meter.done() == expected_samples(options, result, regions));
+    if (result.cancelled) result.stopped_by = StoppedBy::user;
     result.image = result.film.mean();
     result.least_samples = result.film.least_samples();
-    result.seconds = meter.seconds();
+    if (done) meter.finish(result.least_samples);
+    result.seconds = meter.all_seconds();
     result.pixel_samples = meter.done();
+    result.samples_per_second = meter.rate();
     return result;
 }
 

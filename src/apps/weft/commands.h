@@ -16,6 +16,7 @@ using Command = std::function<int()>;
 /// Each registers one subcommand; when it is the one that the user named, `chosen` is what to run.
 void add_render_command(CLI::App& app, Command& chosen);
 void add_replay_command(CLI::App& app, Command& chosen);
+void add_merge_command(CLI::App& app, Command& chosen);
 void add_test_command(CLI::App& app, Command& chosen);
 void add_info_command(CLI::App& app, Command& chosen);
 void add_compare_command(CLI::App& app, Command& chosen);

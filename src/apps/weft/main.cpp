@@ -1,10 +1,11 @@
-// The command line: `weft render`, `replay`, `test`, `info`, `compare`, `display`, `bloom`,
-// `maketx`, `denoise`, `help`, `schema`, `docs`.
+// The command line: `weft render`, `merge`, `replay`, `test`, `info`, `compare`, `display`,
+// `bloom`, `maketx`, `denoise`, `help`, `schema`, `docs`.
 #include <cstdio>
 
 #include "apps/weft/commands.h"
 #include "apps/weft/interrupt.h"
 #include "base/error.h"
+#include "image/image.h"
 
 int main(int argc, char** argv) {
     using namespace weft::apps;
@@ -16,6 +17,7 @@ int main(int argc, char** argv) {
     Command chosen;
     add_render_command(app, chosen);
     add_replay_command(app, chosen);
+    add_merge_command(app, chosen);
     add_test_command(app, chosen);
     add_info_command(app, chosen);
     add_compare_command(app, chosen);
@@ -34,6 +36,9 @@ int main(int argc, char** argv) {
     try {
         return chosen();
     } catch (weft::InputError const& e) {
+        std::fprintf(stderr, "error: %s\n", e.what());
+        return kInputError;
+    } catch (weft::image::IoError const& e) {
         std::fprintf(stderr, "error: %s\n", e.what());
         return kInputError;
     } catch (std::exception const& e) {

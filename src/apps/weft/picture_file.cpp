@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "film/cryptomatte.h"
 #include "image/write.h"
@@ -10,14 +11,36 @@
 
 namespace weft::apps {
 
-image::Metadata render_metadata(session::RenderResult const& r, uint32_t seed) {
-    return {{"Software", "Weft " WEFT_VERSION},
-            {"weft:seed", std::to_string(seed)},
-            {"weft:samplesPerPixel", std::to_string(r.least_samples)},
-            {"weft:complete", r.cancelled ? "false" : "true"}};
+namespace {
+
+char const* text_of(session::StoppedBy why) {
+    switch (why) {
+    case session::StoppedBy::noise:
+        return "noise";
+    case session::StoppedBy::time:
+        return "time";
+    case session::StoppedBy::user:
+        return "user";
+    case session::StoppedBy::samples:
+        break;
+    }
+    return "samples";
 }
 
-namespace {
+/// What is written beside the pixels of any file.
+image::Metadata metadata(session::RenderResult const& r, uint32_t seed) {
+    image::Metadata m{{"Software", "Weft " WEFT_VERSION},
+                      {"weft:seed", std::to_string(seed)},
+                      {"weft:samplesPerPixel", std::to_string(r.least_samples)},
+                      {"weft:stoppedBy", text_of(r.stopped_by)},
+                      {"weft:complete", r.cancelled ? "false" : "true"}};
+    if (r.noise) {
+        m["weft:noise"] = fmt::format("{:.4g}", *r.noise);
+        m["weft:meanSamplesPerPixel"] =
+            fmt::format("{:.1f}", r.pixel_samples / double(r.region.pixels()));
+    }
+    return m;
+}
 
 /// As OpenEXR wants it: y up, and row by row for row vectors.
 std::array<float, 16> world_to_camera(scene::Camera const& camera) {
@@ -36,7 +59,7 @@ std::array<float, 16> world_to_camera(scene::Camera const& camera) {
 image::ExrHeader make_header(session::RenderResult const& r, scene::Scene const& scene,
                              Vec2i full_size, uint32_t seed) {
     image::ExrHeader header;
-    header.texts = render_metadata(r, seed);
+    header.texts = metadata(r, seed);
     header.texts["weft:sceneHash"] = fmt::format("{:016x}", scene::scene_hash(scene));
     // As builds do, for whoever wants the same bytes from the same input.
     if (!std::getenv("SOURCE_DATE_EPOCH"))
@@ -74,17 +97,53 @@ image::Image select(image::Image const& image, std::vector<std::string> const& n
 
 } // namespace
 
-void write_render(std::string const& path, session::RenderResult const& result,
-                  io::RenderJob const& job, world::World const& world, uint32_t seed,
-                  post::DisplayChain const& chain) {
+image::Metadata plain_texts(image::ExrHeader const& header) {
+    image::Metadata result;
+    for (char const* key : {"Software", "weft:seed", "weft:samplesPerPixel", "weft:stoppedBy",
+                            "weft:complete", "weft:noise", "weft:meanSamplesPerPixel"})
+        if (auto const at = header.texts.find(key); at != header.texts.end()) result.insert(*at);
+    return result;
+}
+
+image::ExrHeader picture_header(session::RenderResult const& result, io::RenderJob const& job,
+                                world::World const& world, uint32_t seed) {
+    return make_header(result, *job.scene, world.camera().size(), seed);
+}
+
+void write_film(std::string const& path, film::Film const& film, image::ExrHeader const& header,
+                post::DisplayChain const& chain) {
     if (std::filesystem::path(path).extension() == ".exr")
-        image::write_described_exr(path, result.film.image(),
-                                   make_header(result, *job.scene, world.camera().size(), seed));
-    else if (result.film.layout().has(film::Aov::alpha))
-        post::write_picture(path, select(result.film.image(), {"R", "G", "B", "A"}), chain,
-                            render_metadata(result, seed));
+        image::write_described_exr(path, film.image(), header);
+    else if (film.layout().has(film::Aov::alpha))
+        post::write_picture(path, select(film.image(), {"R", "G", "B", "A"}), chain,
+                            plain_texts(header));
     else
-        post::write_picture(path, result.image, chain, render_metadata(result, seed));
+        post::write_picture(path, film.mean(), chain, plain_texts(header));
+}
+
+std::string header_text(image::ExrHeader const& h) {
+    nlohmann::json j{{"texts", h.texts}, {"window", {h.x, h.y, h.full_width, h.full_height}}};
+    if (h.chromaticities) j["chromaticities"] = *h.chromaticities;
+    if (h.world_to_camera) j["worldToCamera"] = *h.world_to_camera;
+    return j.dump();
+}
+
+image::ExrHeader parse_header(std::string const& text, std::string const& name) {
+    try {
+        auto const j = nlohmann::json::parse(text);
+        image::ExrHeader h;
+        j.at("texts").get_to(h.texts);
+        auto const& window = j.at("window");
+        h.x = window.at(0);
+        h.y = window.at(1);
+        h.full_width = window.at(2);
+        h.full_height = window.at(3);
+        if (j.contains("chromaticities")) h.chromaticities = j.at("chromaticities");
+        if (j.contains("worldToCamera")) h.world_to_camera = j.at("worldToCamera");
+        return h;
+    } catch (nlohmann::json::exception const&) {
+        throw InputError(name + ": expected a part of a render, found a checkpoint");
+    }
 }
 
 std::vector<film::Aov> parse_aovs(std::vector<std::string> const& texts) {

@@ -4,19 +4,27 @@
 #include <string>
 #include <vector>
 
+#include "image/write.h"
 #include "post/display.h"
 #include "session/render.h"
 
 namespace weft::apps {
 
-/// An EXR gets all channels of the film and says how it was made; any other file the beauty, with
-/// alpha where that was asked for. Throws image::IoError.
-void write_render(std::string const& path, session::RenderResult const& result,
-                  io::RenderJob const& job, world::World const& world, uint32_t seed,
-                  post::DisplayChain const& chain);
+/// What a picture's file says beside its channels: what made it, how far it got, its camera.
+image::ExrHeader picture_header(session::RenderResult const& result, io::RenderJob const& job,
+                                world::World const& world, uint32_t seed);
 
-/// What is written beside the pixels of any file.
-image::Metadata render_metadata(session::RenderResult const& result, uint32_t seed);
+/// An EXR gets all channels of the film and the whole header; any other file the beauty, with alpha
+/// where that was asked for. Throws image::IoError.
+void write_film(std::string const& path, film::Film const& film, image::ExrHeader const& header,
+                post::DisplayChain const& chain);
+
+/// The part of a header's texts that belongs into any file.
+image::Metadata plain_texts(image::ExrHeader const& header);
+
+/// A header as text, for parts of pictures that are joined later, and back; `name` is for messages.
+std::string header_text(image::ExrHeader const& header);
+image::ExrHeader parse_header(std::string const& text, std::string const& name);
 
 /// What --aov says: names, separated by commas or spaces. Throws InputError.
 std::vector<film::Aov> parse_aovs(std::vector<std::string> const& texts);

@@ -1,7 +1,10 @@
 // The line that tells how far a render is: for people, for programs, or not at all.
 #pragma once
 
+#include <chrono>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "session/render.h"
 
@@ -17,14 +20,31 @@ ProgressStyle progress_style(std::string const& option);
 class ProgressLine {
   public:
     explicit ProgressLine(ProgressStyle style) : style_(style) {}
+    /// Says to programs that a phase begins: read, commit, render, write.
+    void phase(char const* name);
+    /// How long each phase took, to stderr.
+    void print_profile() const;
+    /// Says to programs what was reached; the last line.
+    void done(session::RenderResult const& result) const;
     void print(session::Progress const& progress);
     /// Leaves the terminal's line where the render stopped early.
     void stop() const;
 
   private:
+    using Clock = std::chrono::steady_clock;
+
     ProgressStyle style_;
+    Clock::time_point start_ = Clock::now();
+    std::vector<std::pair<std::string, Clock::time_point>> phases_; ///< and when each began
     double due_ = 2; ///< seconds since the start, of the next plain line
 };
+
+/// For people: size, samples, time, speed, memory, and what the render was after and reached.
+void print_summary(session::RenderResult const& result, session::RenderOptions const& options);
+
+/// Bytes of memory that the process holds now, and at most so far; 0 where the system does not say.
+double memory_now();
+double memory_peak();
 
 /// "1:02:03", "2:05" or "12.3 s".
 std::string duration_text(double seconds);

@@ -1,0 +1,38 @@
+// Pictures of a render while it goes on: a PNG that is written over and over, and the viewer tev
+// (github.com/Tom94/tev), which takes pictures over TCP.
+#pragma once
+
+#include <string>
+
+#include "post/display.h"
+#include "session/render_state.h"
+
+namespace weft::apps {
+
+/// Writes the beauty so far to `path` every two seconds; each is a whole file.
+session::Watcher png_watcher(std::string const& path, post::DisplayChain const& chain);
+
+/// A picture in tev, or in any program that speaks the same.
+class TevClient {
+  public:
+    /// `address` is "host:port", or a host alone, then at port 14158. Throws InputError where
+    /// nobody listens. `name` is what the picture is called there.
+    TevClient(std::string const& address, std::string name);
+    TevClient(TevClient const&) = delete;
+    TevClient& operator=(TevClient const&) = delete;
+    ~TevClient();
+
+    /// Sends the beauty. A viewer that is gone is no reason to stop a render: it is told once.
+    void show(film::Film const& film);
+    /// Shows every second.
+    session::Watcher watcher();
+
+  private:
+    bool send(std::string const& packet);
+
+    std::string name_;
+    int socket_ = -1;
+    bool created_ = false;
+};
+
+} // namespace weft::apps

@@ -1,0 +1,58 @@
+// weft merge PART...: joins the parts of a render to its picture.
+#include <fmt/format.h>
+#include <memory>
+
+#include "apps/weft/commands.h"
+#include "apps/weft/display_options.h"
+#include "apps/weft/picture_file.h"
+#include "image/write.h"
+#include "session/render_state.h"
+
+namespace weft::apps {
+
+namespace {
+
+struct MergeArguments {
+    std::vector<std::string> parts, outputs;
+    OptionTexts display;
+};
+
+int run(MergeArguments const& a) {
+    for (std::string const& output : a.outputs) image::check_writable(output);
+    post::DisplayChain const chain = display_chain(a.display);
+    print_warning(chain);
+    std::vector<session::RenderState> parts;
+    for (std::string const& part : a.parts) parts.push_back(session::load_state(part));
+    size_t const count = parts.size();
+    session::RenderState const whole = session::merge(std::move(parts), a.parts);
+    image::ExrHeader header = parse_header(whole.note, a.parts[0]);
+    header.texts["weft:samplesPerPixel"] = std::to_string(whole.samples);
+    if (header.texts.contains("weft:renderSeconds"))
+        header.texts["weft:renderSeconds"] = fmt::format("{:.3f}", whole.seconds);
+    for (std::string const& output : a.outputs) {
+        write_film(output, whole.film, header, chain);
+        fmt::print("{}\n", output);
+    }
+    fmt::print(stderr, "{} x {} pixels, {} samples each, of {} parts\n",
+               whole.film.region().width(), whole.film.region().height(), whole.samples, count);
+    return kDone;
+}
+
+} // namespace
+
+void add_merge_command(CLI::App& app, Command& chosen) {
+    auto a = std::make_shared<MergeArguments>();
+    CLI::App* c =
+        app.add_subcommand("merge", "Join parts that `render --shard` or `--samples` made");
+    c->add_option("parts", a->parts, "Every part of one render (.weft)")
+        ->required()
+        ->type_name("PART");
+    c->add_option("-o,--output", a->outputs, "Picture to write; may be given several times")
+        ->required()
+        ->type_name("OUT")
+        ->take_all();
+    add_display_options(*c, a->display);
+    c->callback([a, &chosen] { chosen = [a] { return run(*a); }; });
+}
+
+} // namespace weft::apps

@@ -1,0 +1,44 @@
+// One picture of a scene file, rendered as the user asked for: what `weft render` does for each.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/weft/checkpoint.h"
+#include "apps/weft/display_options.h"
+#include "apps/weft/progress_line.h"
+#include "apps/weft/texture_options.h"
+#include "post/run.h"
+#include "session/render_state.h"
+
+namespace weft::apps {
+
+struct RenderArguments {
+    std::string scene;
+    std::vector<std::string> outputs;
+    std::string size, crop;
+    std::string progress = "auto";
+    std::vector<std::string> overrides, aovs;
+    std::string isa;
+    TextureArguments textures;
+    CheckpointArguments checkpoint;
+    std::string shard, samples, time, watch, tev;
+    bool preview = false, profile = false;
+    OptionTexts display;
+    session::RenderOptions options;
+};
+
+/// Where a picture goes: what the user asked for, or NAME.exr beside the scene. Throws InputError
+/// where one file would have to hold several.
+std::vector<std::string> output_paths(RenderArguments const& a, io::PictureName const& picture,
+                                      bool only_picture);
+
+/// "K/N" of --shard and "A:B" of --samples, either of which may be empty. Throws InputError.
+session::Part parse_part(std::string const& shard, std::string const& samples);
+
+/// Renders and writes `job`; `made` becomes the picture. Returns the program's exit code.
+int render_job(RenderArguments const& a, io::RenderJob const& job, bool only_picture,
+               image::TextureCache const& textures, post::DisplayChain const& chain,
+               ProgressLine& progress, post::Picture& made);
+
+} // namespace weft::apps

@@ -1,0 +1,67 @@
+// Where a picture still needs samples: decided at the end of a pass, by blocks of pixels, from the
+// film alone, so that tiles, threads and the clock have no say.
+//
+// A pixel's error is estimated from the two halves of its samples, even and odd: the square of
+// half their difference has the variance of the mean as its expectation (where strata run through
+// both halves, less is true, and the estimate is on the safe side). It is taken relative to the
+// pixel's own brightness, so that dark parts of a picture get as true as bright ones; what is below
+// a hundredth of the picture's typical brightness counts as if it were that bright. A block's error
+// is the root of the mean square of its pixels: a single pixel that a rare path found keeps its
+// whole block alive, which the mean of the errors (Dammertz et al. 2010, "A hierarchical automatic
+// stopping condition for Monte Carlo global illumination") would smooth away.
+//
+// A stop that looks at the samples favours those that happen to look calm, and a calm pixel is
+// rather too dark than too bright. Three things keep that bias far below the noise: no decision
+// before kLeastSamples, none by fewer pixels than those of a block and the eight around it, and
+// passes that grow with the number of samples, so that there are few decisions.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "film/film.h"
+
+namespace weft::session {
+
+inline constexpr int kBlock = 8;              ///< pixels
+inline constexpr uint32_t kLeastSamples = 32; ///< before anything is decided
+inline constexpr double kDarkest = 0.01;      ///< of the typical brightness
+
+/// One number per block of a region, row by row from its corner.
+struct BlockGrid {
+    explicit BlockGrid(film::Region const& r)
+        : region(r), columns((r.width() + kBlock - 1) / kBlock),
+          rows((r.height() + kBlock - 1) / kBlock) {}
+    size_t size() const { return size_t(columns) * size_t(rows); }
+    size_t index(int x, int y) const {
+        return size_t((y - region.from.y) / kBlock) * size_t(columns) +
+               size_t((x - region.from.x) / kBlock);
+    }
+    film::Region block(size_t index) const;
+
+    film::Region region;
+    int columns, rows;
+};
+
+/// (mean of the square roots of the pixels' brightness)^2: what a picture's middling parts have,
+/// whatever few very bright pixels there are.
+double typical_brightness(film::Film const& film);
+
+/// The estimated relative error of each block. Needs a film with half sums.
+std::vector<float> block_errors(film::Film const& film);
+
+/// Which blocks need more samples for a relative error of `noise`: those beyond it and the eight
+/// around each, unless their pixels have `limit` samples.
+std::vector<uint8_t> active_blocks(film::Film const& film, std::vector<float> const& errors,
+                                   double noise, uint32_t limit);
+
+/// Pixel samples that are likely to be needed yet, if errors go on to fall with the square root of
+/// the samples.
+double samples_needed(film::Film const& film, std::vector<float> const& errors, double noise,
+                      uint32_t limit);
+
+/// The end of the pass that starts at sample `from`, where decisions are to be taken: 1, 2, 4, ...
+/// 32, and then half as many again each time, even numbers all but the first.
+uint32_t adaptive_pass_end(uint32_t from, uint32_t limit);
+
+} // namespace weft::session

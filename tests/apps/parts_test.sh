@@ -1,0 +1,134 @@
+#!/bin/bash
+# parts_test.sh WEFT: renders that are killed and go on, and renders in parts, have the bits of one
+# that was made at once.
+set -uo pipefail
+. "$(dirname "$0")/checks.sh"
+weft=$1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+export SOURCE_DATE_EPOCH=0 # files with equal pixels are equal
+
+cat >s.xml <<'X'
+<integrator type="path" depth="6" aovs="depth, albedo, crypto_object">
+  <image id="picture"/>
+  <sampler type="sobol" count="24"/>
+  <scene>
+    <camera type="perspective" id="cam" width="120" height="80" fov="40">
+      <transform><lookat origin="0,0,-5" target="0,0,0" up="0,1,0"/></transform>
+    </camera>
+    <light type="envmap"><texture type="constant" value="0.5"/></light>
+    <light type="point" position="2,-3,-4" power="100"/>
+    <instance id="ball"><shape type="sphere"/><bsdf type="principled" roughness="0.3"/></instance>
+  </scene>
+</integrator>
+X
+
+# Shards and ranges of samples.
+expect 0 "$weft" render s.xml -o whole.exr
+for k in 1 2 3; do expect 0 "$weft" render s.xml --shard $k/3 -o p$k.weft; done
+expect 0 "$weft" merge p3.weft p1.weft p2.weft -o joined.exr -o joined.png
+cmp -s whole.exr joined.exr || fail "three shards are not the whole"
+expect 2 "$weft" merge p1.weft p3.weft -o j.exr
+has "missing: shard 2/3" err
+expect 2 "$weft" merge p1.weft p2.weft p2.weft p3.weft -o j.exr
+has "shard 2/3 is there twice: p2.weft and p2.weft" err
+expect 0 "$weft" render s.xml --shard 3/3 --seed 4 -o seed.weft
+expect 2 "$weft" merge p1.weft p2.weft seed.weft -o j.exr
+has "seed.weft is of another render than p1.weft ('here'): seed is '0' here and '4' there" err
+expect 0 "$weft" render s.xml --samples 0:10 # where the scene says
+[ -s picture.samples-0-10.weft ] || fail "no name for a part"
+expect 0 "$weft" render s.xml --samples 10:24 -o b.weft
+expect 0 "$weft" merge b.weft picture.samples-0-10.weft -o ranges.exr
+expect 0 "$weft" compare whole.exr ranges.exr --mae 1e-7
+expect 2 "$weft" merge b.weft -o j.exr
+has "missing: samples 0:10" err
+head -c 5000 b.weft >cut.weft
+expect 2 "$weft" merge cut.weft -o j.exr
+has "cut.weft: the file is damaged or cut off" err
+[ ! -e j.exr ] || fail "a failed merge left a picture"
+for bad in "--shard 4/3" "--shard 2" "--samples 3:3" "--samples 0:25" "--shard 1/2 -o a.exr" \
+    "--shard 1/2 --noise 0.1" "--samples 0:2 --time 3s" "--checkpoint never" "--resume" "--time 0s"; do
+    # shellcheck disable=SC2086 # words are options
+    expect 2 "$weft" render s.xml $bad
+done
+
+# Killed at several moments, by a signal that nobody can catch.
+common=(s.xml --spp 300 --threads 2 --progress none)
+expect 0 "$weft" render "${common[@]}" -o long.exr
+python3 - "$weft" "${common[@]}" <<'P' || fail "a killed render did not go on as it should"
+import os, random, subprocess, sys, time
+weft, common = sys.argv[1], sys.argv[2:]
+random.seed(1)
+command = [weft, "render", *common, "-o", "killed.exr", "--checkpoint", "0.05s"]
+file = "killed.exr.checkpoint"
+def written():
+    return os.path.exists(file) and os.stat(file).st_mtime_ns
+kills, resumed = 0, 0
+while True:
+    before = written()
+    p = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    if kills < 8: # after a checkpoint, at whatever moment
+        while p.poll() is None and written() == before:
+            time.sleep(0.001)
+        time.sleep(random.choice([0, 0.01, 0.05, 0.1, 0.2]))
+        p.kill()
+        kills += 1
+    error = p.communicate(timeout=500)[1]
+    resumed += "going on from " + file in error
+    if p.returncode == 0:
+        break
+    assert p.returncode < 0, error
+print(kills, "kills,", resumed, "times gone on")
+assert resumed >= 5
+assert not os.path.exists(file), "the checkpoint outlived the render"
+P
+cmp -s long.exr killed.exr || fail "a killed render has other bits"
+
+# Ctrl-C keeps a checkpoint; another render does not take it, nor write over it.
+"$weft" render s.xml --spp 1000000 -o c.exr --checkpoint 60s >out 2>err &
+pid=$!
+sleep 3
+kill -INT $pid
+wait $pid
+[ $? = 130 ] || fail "no clean stop"
+[ -s c.exr.checkpoint ] || fail "no checkpoint of a render that was stopped"
+cp c.exr.checkpoint copy
+expect 2 "$weft" render s.xml --spp 1000000 -o c.exr --checkpoint 60s --seed 7
+has "seed is '7' here and '0' there" err
+expect 2 "$weft" render s.xml --spp 1000000 -o c.exr --resume --set cam.fov=41
+has "scene is" err
+expect 2 "$weft" render s.xml --spp 20 -o c.exr --resume --aov uv
+has "samples per pixel is '20' here and '1000000' there; channels is" err
+expect 2 "$weft" render s.xml --spp 1000000 --shard 1/2 --checkpoint-file c.exr.checkpoint -o a.weft
+has "it is shard 1/2 here and the whole picture there" err
+cmp -s copy c.exr.checkpoint || fail "a refused checkpoint was changed"
+printf x | dd of=c.exr.checkpoint bs=1 seek=900 conv=notrunc 2>/dev/null
+expect 2 "$weft" render s.xml --spp 1000000 -o c.exr --resume
+has "damaged" err
+expect 0 "$weft" render s.xml --spp 2 -o c.exr --checkpoint 60s --restart
+[ ! -e c.exr.checkpoint ] || fail "a finished render kept its checkpoint"
+
+# A disk that is full, or a folder that takes no files: known before the render starts.
+expect 2 "$weft" render s.xml -o f.exr --checkpoint-file /proc/weft.checkpoint
+has "cannot make a file in its folder" err
+[ ! -e f.exr ] || fail "it rendered all the same"
+cp copy f.exr.checkpoint
+expect 2 bash -c "trap '' XFSZ; ulimit -f 100; $weft render s.xml --spp 1000000 -o f.exr --resume"
+has "no room for a second file" err
+cmp -s copy f.exr.checkpoint || fail "a full disk took the old checkpoint"
+expect 2 bash -c "trap '' XFSZ; ulimit -f 100; $weft render s.xml -o g.exr --checkpoint 60s"
+[ ! -e g.exr ] && [ ! -e g.exr.checkpoint ] || fail "it rendered all the same"
+
+# Noise and time, and what the picture says of them.
+expect 0 "$weft" render s.xml -o n.exr --noise 0.1
+has "the noise is at most 0.0" err
+expect 0 "$weft" render s.xml -o n1.exr --noise 0.1 --threads 1 --tile 7
+cmp -s n.exr n1.exr || fail "adaptive sampling depends on threads or tiles"
+grep -qa "weft:stoppedBy" n.exr || fail "the picture does not say why it ended"
+expect 0 "$weft" render s.xml -o n.exr --noise 0.0001 --spp 40
+has "some pixels have all of the 40 samples" err
+expect 0 "$weft" render s.xml -o t.exr --time 2s
+has "the time was up" err
+
+[ $failures = 0 ] && echo "parts are as good as the whole"

@@ -1,0 +1,197 @@
+// Adaptive sampling: what it decides, that nothing but the samples has a say in it, and that its
+// pictures have the same mean as those of fixed sampling.
+#include <gtest/gtest.h>
+
+#include "session/adaptive.h"
+#include "session/render.h"
+#include "tests/support/scenes.h"
+
+namespace weft::session {
+namespace {
+
+using namespace weft::testing;
+
+film::Film film_with_halves(film::Region const& region) {
+    film::LayoutOptions options;
+    options.half_sums = true;
+    return film::Film(region, film::Layout({}, options));
+}
+
+TEST(Blocks, ErrorIsThatOfTheMeanRelativeToIt) {
+    // Of n samples, uniform in [0, 2b): the mean b is off by b / sqrt(3 n), whatever b.
+    constexpr uint32_t n = 64;
+    film::Film film = film_with_halves({{0, 0}, {64, 128}});
+    Rng rng(3);
+    for (int y = 0; y < 128; ++y)
+        for (int x = 0; x < 64; ++x)
+            for (uint32_t s = 0; s < n; ++s)
+                film.add(x, y, s, Color(2 * rng.next() * (y < 64 ? 1.f : 0.1f)), nullptr);
+    double sum = 0;
+    auto const errors = block_errors(film);
+    for (float e : errors) sum += double(e) * double(e);
+    // The square of a normal variable has a variance of twice its own squared.
+    EXPECT_NEAR(std::sqrt(sum / double(errors.size())) * std::sqrt(3 * n), 1,
+                4 * std::sqrt(2.0 / (64 * 128)));
+}
+
+TEST(Blocks, NoiseWakesTheNeighbours) {
+    film::Film film = film_with_halves({{5, 3}, {5 + 40, 3 + 30}});
+    for (int y = 3; y < 33; ++y)
+        for (int x = 5; x < 45; ++x)
+            for (uint32_t s = 0; s < 4; ++s)
+                film.add(x, y, s, Color(x == 30 && y == 30 && s == 0 ? 100.f : 1.f), nullptr);
+    BlockGrid const grid(film.region());
+    ASSERT_EQ(grid.columns, 5);
+    ASSERT_EQ(grid.rows, 4);
+    auto const errors = block_errors(film);
+    for (size_t i = 0; i < errors.size(); ++i)
+        EXPECT_EQ(errors[i] > 0.05f, i == grid.index(30, 30)) << i;
+    std::vector<uint8_t> expected(20);
+    for (int r : {2, 3})
+        for (int c : {2, 3, 4}) expected[size_t(5 * r + c)] = 1;
+    EXPECT_EQ(active_blocks(film, errors, 0.05, 100), expected);
+    EXPECT_EQ(active_blocks(film, errors, 0.05, 4), std::vector<uint8_t>(20)) << "the limit";
+    EXPECT_EQ(grid.block(19).to, Vec2i(45, 33));
+}
+
+TEST(Blocks, BlackIsWithoutNoise) {
+    film::Film film = film_with_halves({{0, 0}, {8, 8}});
+    EXPECT_EQ(block_errors(film)[0], 0);
+    for (uint32_t s = 0; s < 4; ++s) film.add(0, 0, s, Color(0), nullptr);
+    EXPECT_EQ(block_errors(film)[0], 0);
+}
+
+TEST(Passes, GrowToTheLimit) {
+    uint32_t n = 0, passes = 0;
+    for (; n < 10000; n = adaptive_pass_end(n, 10000), ++passes) {
+        EXPECT_TRUE(n < 2 || n % 2 == 0) << "both halves have as many samples";
+        ASSERT_LT(passes, 30u);
+    }
+    EXPECT_EQ(n, 10000u);
+}
+
+struct NamedScene {
+    std::string name, contents;
+};
+
+std::string camera() {
+    return R"(<camera type="perspective" width="32" height="24" fov="45"><transform><lookat origin="0,1.2,-4" target="0,0.3,0" up="0,1,0"/></transform></camera>
+    <instance><shape type="rectangle"/><bsdf type="diffuse" albedo="0.6"/><transform><scale value="5"/><rotate axis="1,0,0" angle="-90"/><translate y="-0.7"/></transform></instance>)";
+}
+std::string lamp(std::string const& size, std::string const& emission) {
+    return "<light type=\"area\"><instance><shape type=\"rectangle\"/><emission "
+           "type=\"lambertian\" "
+           "emission=\"" +
+           emission + "\"/><transform><scale value=\"" + size +
+           "\"/><rotate axis=\"1,0,0\" angle=\"90\"/><translate "
+           "y=\"3\"/></transform></instance></light>";
+}
+std::string ball(std::string const& bsdf, std::string const& at = "0") {
+    return "<instance><shape type=\"sphere\"/>" + bsdf +
+           "<transform><scale value=\"0.7\"/><translate x=\"" + at + "\"/></transform></instance>";
+}
+
+/// Eight scenes, among them what stopping rules get wrong: dark parts, rare light, thin features.
+std::vector<NamedScene> scenes() {
+    std::string const
+        diffuse = "<bsdf type=\"diffuse\" albedo=\"0.5\"/>",
+        glass = "<bsdf type=\"dielectric\"/>",
+        gloss = "<bsdf type=\"principled\" roughness=\"0.2\" metallic=\"1\"/>",
+        sky = "<light type=\"envmap\"><texture type=\"constant\" value=\"0.4\"/></light>";
+    return {
+        {"soft shadow", camera() + lamp("1", "8") + ball(diffuse)},
+        {"small lamp", camera() + lamp("0.1", "600") + ball(diffuse)},
+        {"caustic", camera() + lamp("0.4", "40") + ball(glass)},
+        {"gloss", camera() + lamp("0.5", "20") + sky + ball(gloss)},
+        {"dark and bright", camera() + lamp("1", "8") + ball(diffuse, "-1") +
+                                ball("<bsdf type=\"diffuse\" albedo=\"0.005\"/>", "1")},
+        {"sky", camera() + sky + ball(diffuse) + ball(glass, "1.5")},
+        {"fog", camera() + lamp("0.7", "20") +
+                    "<instance><shape type=\"sphere\"/><medium type=\"homogeneous\" "
+                    "absorption=\"0.2\" scatter=\"1.5\"/></instance>"},
+        {"checker through alpha",
+         camera() + sky + lamp("0.5", "20") +
+             "<instance alpha=\"0.3\"><shape type=\"sphere\"/><bsdf type=\"diffuse\"><texture "
+             "name=\"albedo\" type=\"checkerboard\" scale=\"8,8\" color0=\"0.02\" "
+             "color1=\"0.9\"/></bsdf></instance>"},
+    };
+}
+
+/// Mean brightness of square blocks of a picture.
+std::vector<double> block_means(image::Image const& image, int block) {
+    std::vector<double> means;
+    for (int by = 0; by + block <= image.height; by += block)
+        for (int bx = 0; bx + block <= image.width; bx += block) {
+            double sum = 0;
+            for (int y = by; y < by + block; ++y)
+                for (int x = bx; x < bx + block; ++x)
+                    for (int c = 0; c < 3; ++c) sum += double(image.at(x, y, c));
+            means.push_back(sum / (3.0 * block * block));
+        }
+    return means;
+}
+
+/// Estimates of the means of blocks, and last of the whole picture, from `renders` seeds: their
+/// spread gives the variance without any assumption on the samples.
+std::vector<Estimate> over_seeds(TestScene const& scene, RenderOptions options, int renders) {
+    std::vector<std::vector<double>> all;
+    for (int i = 0; i < renders; ++i) {
+        ++options.seed;
+        all.push_back(block_means(render(*scene.world, scene.job, options).image, 8));
+        double sum = 0;
+        for (double m : all.back()) sum += m;
+        all.back().push_back(sum / double(all.back().size()));
+    }
+    std::vector<Estimate> estimates(all[0].size());
+    for (size_t b = 0; b < estimates.size(); ++b) {
+        Estimate& e = estimates[b];
+        for (auto const& one : all) e.mean += one[b] / renders;
+        for (auto const& one : all) e.variance += (one[b] - e.mean) * (one[b] - e.mean);
+        e.variance /= double(renders) * (renders - 1);
+    }
+    return estimates;
+}
+
+RenderOptions with(int spp, double noise, uint32_t seed) {
+    RenderOptions o;
+    o.spp = spp;
+    o.noise = noise;
+    o.seed = seed;
+    return o;
+}
+
+/// The normal variable that is as unlikely as `t` of Student's distribution (Wallace 1959, "Bounds
+/// on normal approximations to Student's and the chi-square distributions").
+double as_normal(double t, double freedom) {
+    return (8 * freedom + 1) / (8 * freedom + 3) * std::sqrt(freedom * std::log1p(t * t / freedom));
+}
+
+TEST(Adaptive, HasTheMeansOfFixedSampling) {
+    constexpr int renders = 10;
+    std::vector<NamedScene> const all = scenes();
+    size_t tests = 0;
+    double least = 1;
+    std::string where;
+    for (NamedScene const& s : all) {
+        TestScene const scene =
+            make_scene(s.contents, "type=\"path\" depth=\"6\"", "", "type=\"sobol\" count=\"64\"");
+        auto const adaptive = over_seeds(scene, with(128, 0.35, 100), renders),
+                   fixed = over_seeds(scene, with(48, 0, 900), renders);
+        for (size_t b = 0; b < fixed.size(); ++b, ++tests) {
+            Estimate const &x = adaptive[b], &y = fixed[b];
+            // Where there is no noise, sums of different numbers of floats differ in rounding.
+            double const beyond = std::abs(x.mean - y.mean) - 4e-6 * (x.mean + y.mean);
+            if (beyond <= 0) continue;
+            double const t = beyond / std::sqrt(x.variance + y.variance),
+                         p = normal_tail(as_normal(t, renders - 1));
+            if (p < least) {
+                least = p;
+                where = s.name + ", block " + std::to_string(b);
+            }
+        }
+    }
+    EXPECT_GT(least, 1 - std::pow(1 - 1e-3, 1.0 / double(tests))) << where << " of " << tests;
+}
+
+} // namespace
+} // namespace weft::session

@@ -1,0 +1,198 @@
+// What makes a render in parts the same as a render at once.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "session/render_state.h"
+#include "tests/support/scenes.h"
+
+namespace weft::session {
+namespace {
+
+using namespace weft::testing;
+
+TestScene small_scene(std::string const& more = "") {
+    return make_scene(R"(
+        <camera type="perspective" width="45" height="30" fov="50"><transform><lookat origin="0,1,-4" target="0,0,0" up="0,1,0"/></transform></camera>
+        <instance id="ball"><shape type="sphere"/><bsdf type="principled" roughness="0.3"/></instance>
+        <light type="point" position="2,3,-4" power="300"/>
+        <light type="envmap"><texture type="constant" value="0.3,0.4,0.5"/></light>)" +
+                          more,
+                      "type=\"path\" depth=\"6\" aovs=\"depth, albedo, crypto_object\"", "",
+                      "type=\"sobol\" count=\"12\"");
+}
+
+RenderState part_of(TestScene const& scene, Part const& part, RenderOptions options = {}) {
+    options.part = part;
+    options.tile_size = 8;
+    return to_state(render(*scene.world, scene.job, options), *scene.world, scene.job, options);
+}
+
+std::string message(std::vector<RenderState> parts) {
+    std::vector<std::string> names;
+    for (size_t i = 0; i < parts.size(); ++i) names.push_back("part" + std::to_string(i));
+    try {
+        merge(std::move(parts), names);
+        return "";
+    } catch (InputError const& e) {
+        return e.what();
+    }
+}
+
+TEST(State, IsReadAsItIsWritten) {
+    TestScene const scene = small_scene();
+    RenderState state = part_of(scene, {2, 3, 0, 0});
+    state.note = "a \"note\"\n";
+    state.seconds = 1.0 / 3;
+    state.pass.active = {1, 0, 1};
+    state.bad_samples = 5;
+    float const nan = std::numeric_limits<float>::quiet_NaN();
+    state.first_bad_samples = {{{3, 4}, 7, Color(nan, 1, -2)}};
+    std::string const bytes = write_state(state);
+    RenderState const back = read_state(bytes, "name");
+    EXPECT_TRUE(back.film == state.film);
+    EXPECT_EQ(back.identity, state.identity);
+    EXPECT_EQ(back.part, state.part);
+    EXPECT_EQ(back.pass, state.pass);
+    EXPECT_EQ(back.note, state.note);
+    EXPECT_EQ(back.seconds, state.seconds);
+    EXPECT_EQ(back.bad_samples, 5u);
+    ASSERT_EQ(back.first_bad_samples.size(), 1u);
+    EXPECT_EQ(0, std::memcmp(&back.first_bad_samples[0].value, &state.first_bad_samples[0].value,
+                             sizeof(Color)));
+    EXPECT_EQ(write_state(back), bytes);
+}
+
+TEST(State, NotesWhatIsDamaged) {
+    TestScene const scene = small_scene();
+    std::string const bytes = write_state(part_of(scene, {1, 8, 0, 0}));
+    for (size_t at = 0; at < bytes.size(); at += 1 + bytes.size() / 97) {
+        std::string changed = bytes;
+        changed[at] = char(changed[at] ^ 4);
+        EXPECT_THROW(read_state(changed, "name"), InputError) << at;
+        EXPECT_THROW(read_state(std::string_view(bytes).substr(0, at), "name"), InputError) << at;
+    }
+}
+
+TEST(Parts, ShardsJoinToTheSameFilm) {
+    TestScene const scene = small_scene();
+    RenderState const whole = part_of(scene, {});
+    for (int shards : {2, 5}) {
+        std::vector<RenderState> parts;
+        std::vector<std::string> names;
+        for (int k = shards; k >= 1; --k) {
+            parts.push_back(part_of(scene, {k, shards, 0, 0}));
+            names.push_back(std::to_string(k));
+        }
+        RenderState const joined = merge(std::move(parts), names);
+        EXPECT_TRUE(joined.film == whole.film) << shards << " shards";
+        EXPECT_EQ(joined.identity, whole.identity);
+    }
+}
+
+TEST(Parts, RangesOfSamplesJoinWithinRounding) {
+    TestScene const scene = small_scene();
+    image::Image const whole = part_of(scene, {}).film.image();
+    image::Image const joined = merge({part_of(scene, {1, 1, 5, 12}), part_of(scene, {2, 2, 0, 5}),
+                                       part_of(scene, {1, 2, 0, 5})},
+                                      {"a", "b", "c"})
+                                    .film.image();
+    ASSERT_EQ(joined.names, whole.names);
+    for (size_t i = 0; i < whole.pixels.size(); ++i) {
+        if (std::isnan(whole.pixels[i])) continue; // ids as floats
+        ASSERT_FLOAT_EQ(joined.pixels[i], whole.pixels[i]) << i;
+    }
+}
+
+TEST(Parts, ThatDoNotFitAreRefusedByName) {
+    TestScene const scene = small_scene();
+    RenderState const one = part_of(scene, {1, 3, 0, 0}), two = part_of(scene, {2, 3, 0, 0}),
+                      three = part_of(scene, {3, 3, 0, 0});
+    EXPECT_EQ(message({one, two, three}), "");
+    EXPECT_EQ(message({one, three}), "cannot merge: missing: shard 2/3");
+    EXPECT_EQ(message({one, two, two, three}),
+              "cannot merge: shard 2/3 is there twice: part1 and part2");
+    EXPECT_EQ(message({one, two, part_of(scene, {2, 2, 0, 0})}),
+              "cannot merge: part2 is shard 2/2 with tiles of 8, but part0 is shard 1/3 with tiles "
+              "of 8");
+    EXPECT_EQ(message({part_of(scene, {1, 1, 0, 5}), part_of(scene, {1, 1, 6, 12})}),
+              "cannot merge: missing: samples 5:6");
+    EXPECT_EQ(message({part_of(scene, {1, 1, 0, 5})}), "cannot merge: missing: samples 5:12");
+    EXPECT_EQ(message({part_of(scene, {1, 1, 0, 6}), part_of(scene, {1, 1, 5, 12})}),
+              "cannot merge: samples 5:6 are there twice, in part1 too");
+    RenderOptions other;
+    other.seed = 3;
+    EXPECT_EQ(message({one, two, part_of(scene, {3, 3, 0, 0}, other)}),
+              "cannot merge: part2 is of another render than part0 ('here'): seed is '0' here and "
+              "'3' there");
+    TestScene const foreign = small_scene("<instance><shape type=\"sphere\"/></instance>");
+    EXPECT_NE(message({one, two, part_of(foreign, {3, 3, 0, 0})}).find("part2 is of another"),
+              std::string::npos);
+    RenderState stopped = three;
+    stopped.film = film::Film(three.film.region(), three.film.layout());
+    EXPECT_EQ(message({one, two, stopped}),
+              "cannot merge: part2 (shard 3/3) was stopped before it was done");
+}
+
+TEST(Identity, SaysWhatDiffers) {
+    TestScene const scene = small_scene();
+    RenderOptions a;
+    auto const of = [&](RenderOptions const& o) { return identify(*scene.world, scene.job, o); };
+    EXPECT_EQ(difference(of(a), of(a)), "");
+    std::vector<std::pair<RenderOptions, std::string>> const others{
+        {{.spp = 13}, "samples per pixel is '12' here and '13' there"},
+        {{.crop = film::Region{{0, 0}, {8, 8}}}, "crop is '0,0,45,30' here and '0,0,8,8' there"},
+        {{.seed = 1}, "seed is '0' here and '1' there"},
+        {{.aovs = {film::Aov::uv}}, "channels is 'R G B"},
+        {{.version = "2"}, "version is '' here and '2' there"},
+        {{.kernel = "avx2"}, "kernel is 'any' here and 'avx2' there"},
+    };
+    for (auto const& [other, expected] : others)
+        EXPECT_EQ(difference(of(a), of(other)).rfind(expected, 0), 0u)
+            << difference(of(a), of(other));
+    RenderOptions same;
+    same.threads = 3;
+    same.tile_size = 7;
+    EXPECT_EQ(difference(of(a), of(same)), "");
+}
+
+/// Looks at a render while it goes on and keeps every state.
+std::vector<RenderState> states_of(TestScene const& scene, RenderOptions options) {
+    std::vector<RenderState> states;
+    options.watchers = {{0.005, [&](RenderState const& s) { states.push_back(s); }}};
+    render(*scene.world, scene.job, options);
+    return states;
+}
+
+void expect_resumed_is_same(TestScene const& scene, RenderOptions options) {
+    RenderResult const whole = render(*scene.world, scene.job, options);
+    std::vector<RenderState> const states = states_of(scene, options);
+    ASSERT_FALSE(states.empty());
+    size_t partial = 0;
+    for (size_t i = 0; i < states.size(); i += 1 + states.size() / 6) {
+        RenderState const state = read_state(write_state(states[i]), "state");
+        partial += !(state.film == whole.film);
+        options.resume = &state;
+        RenderResult const resumed = render(*scene.world, scene.job, options);
+        EXPECT_TRUE(resumed.film == whole.film) << "state " << i << " of " << states.size();
+        EXPECT_EQ(resumed.least_samples, whole.least_samples);
+        EXPECT_EQ(resumed.pixel_samples, whole.pixel_samples);
+    }
+    EXPECT_GT(partial, 0u);
+}
+
+TEST(Resume, GivesTheSameBits) {
+    RenderOptions options;
+    options.spp = 100;
+    expect_resumed_is_same(small_scene(), options);
+}
+
+TEST(Resume, OfAnAdaptiveRenderGivesTheSameBits) {
+    RenderOptions options;
+    options.spp = 200;
+    options.noise = 0.04;
+    expect_resumed_is_same(small_scene(), options);
+}
+
+} // namespace
+} // namespace weft::session
