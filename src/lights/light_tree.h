@@ -19,9 +19,9 @@
 // Of children that may contribute each gets at least 1/1024 of a node's choices. Where none can,
 // nothing is chosen: the probabilities sum to 1 less the chance of that.
 //
-// The lights at infinity are beside the root: half of the choices among them and the tree go by power,
-// half evenly (by the user's weights), since power does not say what gets in: a sun outside of a room
-// with a few candles would leave those one sample in a thousand.
+// The lights at infinity are beside the root: half of the choices among them and the tree go by
+// power, half evenly (by the user's weights), since power does not say what gets in: a sun outside
+// of a room with a few candles would leave those one sample in a thousand.
 //
 // Built from the top: the costliest part of a node's lights is cut in two until there are four,
 // whose importances are computed side by side. Cuts are those of least cost by the surface area

@@ -26,7 +26,7 @@ scene::ImageTexture const* plain_image(scene::Scene const& scene, scene::Input<C
 /// Networks are looked up at four places per texel; as something may be between them, and larger
 /// images are taken as networks, everything else is sampled a little as well.
 Grid brightness_of(shading::Textures const& textures, scene::Scene const& scene,
-                scene::Input<Color> const& map, Color const& tint) {
+                   scene::Input<Color> const& map, Color const& tint) {
     Vec2i size = map.texture ? textures.resolution(map.texture) : Vec2i(1, 1);
     scene::ImageTexture const* image = plain_image(scene, map);
     bool const exact = !map.texture || (image && size.x <= kMostColumns);

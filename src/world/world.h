@@ -77,9 +77,9 @@ struct Object {
     int32_t root_instance = -1;   ///< the outermost one, of which it is a member
     int32_t group_instance = -1;  ///< the one that names its light group; -1: none
     scene::RayVisibility visibility;
-    RayMask ray_mask = ~0u;   ///< bits of the rays that meet it
-    uint64_t sets = 0;        ///< that it belongs to, as bits
-    float trace_distance = 0; ///< how far rays that leave it see; 0: no limit
+    RayMask ray_mask = ~0u;                       ///< bits of the rays that meet it
+    uint64_t sets = 0;                            ///< that it belongs to, as bits
+    float trace_distance = 0;                     ///< how far rays that leave it see; 0: no limit
     bool holdout = false, shadow_catcher = false; ///< what the camera sees in its place
 };
 
