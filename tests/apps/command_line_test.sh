@@ -80,6 +80,20 @@ grep -aq UV.U layers.exr || fail "the scene's AOVs are not written"
 # One path again.
 expect 0 "$weft" replay s.xml --pixel 20,15 --sample 1 --seed 2
 has "camera at" out
+cat >sky.xml <<'XML'
+<integrator type="path" depth="4"><sampler type="sobol" count="1"/><image id="sky"/><scene>
+  <camera type="perspective" width="8" height="8"><transform><translate z="-4"/></transform></camera>
+  <light type="sky" elevation="40"/>
+  <instance><shape type="sphere"/><bsdf type="disney" baseColor="0.6,0.3,0.2" roughness="0.3"/></instance>
+</scene></integrator>
+XML
+expect 0 "$weft" render sky.xml --crop 4,4,5,5 -o sky.exr
+expect 0 "$weft" replay sky.xml --pixel 4,4
+python3 -c 'import re, subprocess
+told = [float(x) for x in re.search(r"^= (.*)$", open("out").read(), re.M)[1].split()]
+stats = subprocess.run(["oiiotool", "sky.exr", "--printstats"], capture_output=True, text=True).stdout
+seen = [float(x) for x in re.search(r"Stats Avg: ([^(]*)", stats)[1].split()]
+assert all(abs(a - b) < 1e-4 * b for a, b in zip(told, seen)), (told, seen)' || fail "replay traced another path"
 expect 2 "$weft" replay s.xml --pixel 2000,15
 has "expects a pixel inside of the picture" err
 expect 2 "$weft" replay s.xml --pixel 1.5,2

@@ -10,7 +10,6 @@
 #include "apps/weft/scene_loading.h"
 #include "image/atomic_file.h"
 #include "image/write.h"
-#include "integrator/pixel_renderer.h"
 #include "world/lints.h"
 
 namespace weft::apps {
@@ -185,9 +184,7 @@ int render_job(RenderArguments const& a, io::RenderJob const& job, bool only_pic
     check_aovs(a, job, paths);
     check_part(a, job);
     progress.phase("commit");
-    auto const world =
-        world::World::commit(job.scene, {a.isa, parse_size(a.size, *job.scene),
-                                         integrator::combines_strategies(job.integrator)});
+    auto const world = commit_world(job, a.isa, a.size);
     for (std::string const& lint : world::lint_warnings(*world, job.integrator))
         fmt::print(stderr, "warning: {}\n", lint);
 

@@ -35,7 +35,7 @@ int run(ReplayArguments& a) {
     io::SceneFile const file =
         io::read_scene_file(a.scene, a.overrides, make_texture_cache(a.textures));
     for (io::RenderJob const& job : file.jobs) {
-        auto const world = world::World::commit(job.scene, {a.isa, parse_size(a.size, *job.scene)});
+        auto const world = commit_world(job, a.isa, a.size);
         session::Replay const replay = session::replay(*world, job, a.options);
         if (file.jobs.size() > 1) fmt::print("{}\n", job.image_name);
         fmt::print("{}", session::replay_text(*world, replay));

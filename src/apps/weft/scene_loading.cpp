@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "integrator/pixel_renderer.h"
 #include "schema/text.h"
 
 namespace weft::apps {
@@ -29,6 +30,12 @@ Vec2i parse_size(std::string const& text, scene::Scene const& scene) {
         !schema::TextForm<int>::read(text.substr(x + 1), h) || !in_range(w) || !in_range(h))
         throw fail();
     return {w, h};
+}
+
+std::unique_ptr<world::World const> commit_world(io::RenderJob const& job, std::string const& isa,
+                                                 std::string const& size) {
+    return world::World::commit(job.scene, {isa, parse_size(size, *job.scene),
+                                            integrator::combines_strategies(job.integrator)});
 }
 
 } // namespace weft::apps

@@ -5,10 +5,10 @@
 #include <memory>
 
 #include "apps/weft/commands.h"
+#include "apps/weft/scene_loading.h"
 #include "apps/weft/texture_options.h"
 #include "image/compare.h"
 #include "image/write.h"
-#include "integrator/pixel_renderer.h"
 #include "session/render.h"
 
 namespace weft::apps {
@@ -24,8 +24,7 @@ bool run_test(io::RenderJob const& job, session::RenderOptions const& options) {
     };
     image::check_writable(path("_test.exr"));
     image::Image const reference = image::read_image(path("_ref.exr"));
-    auto const world = world::World::commit(
-        job.scene, {.compensate = integrator::combines_strategies(job.integrator)});
+    auto const world = commit_world(job);
     session::RenderResult const result = session::render(*world, job, options);
     image::write_exr(path("_test.exr"), result.image);
     image::Difference const d = image::compare(result.image, reference);
