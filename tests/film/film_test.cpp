@@ -138,8 +138,8 @@ Film made_up_film(Region const& region, Region const& part, uint32_t from, uint3
                     record.set_surface({rng.next_uint() % 3,
                                         number(),
                                         Vec3(number()),
-                                        {},
-                                        {},
+                                        Vec3(0),
+                                        Vec3(0),
                                         {number(), 1},
                                         Color(0.5f)});
                 record.finish();
