@@ -120,6 +120,17 @@ cmp -s copy f.exr.checkpoint || fail "a full disk took the old checkpoint"
 expect 2 bash -c "trap '' XFSZ; ulimit -f 100; $weft render s.xml -o g.exr --checkpoint 60s"
 [ ! -e g.exr ] && [ ! -e g.exr.checkpoint ] || fail "it rendered all the same"
 
+# Postprocesses want the whole picture: a part of a scene that has some is made without them.
+mkdir post
+{
+    sed 's/ aovs="[^"]*"//' s.xml
+    echo '<postprocess type="denoising" backend="nlm"><ref name="input" id="picture"/><image id="clean"/></postprocess>'
+} >post/p.xml
+expect 0 "$weft" render post/p.xml --shard 1/2
+has "postprocesses need the whole picture" err
+[ -e post/picture.shard-1-of-2.weft ] || fail "no part was made"
+[ ! -e post/clean.exr ] || fail "a part was denoised"
+
 # Noise and time, and what the picture says of them.
 expect 0 "$weft" render s.xml -o n.exr --noise 0.1
 has "the noise is at most 0.0" err

@@ -57,15 +57,13 @@ std::map<int32_t, post::DisplayChain> display_chains(RenderArguments const& a,
 int run_file(RenderArguments& a, io::SceneFile const& file, ProgressLine& progress) {
     bool const only_picture = file.jobs.size() + file.postprocesses.size() == 1;
     auto const chains = display_chains(a, file);
-    for (io::PostprocessJob const& job : file.postprocesses) {
-        auto const& picture = output_of(file, job);
-        for (std::string const& path : output_paths(a, picture, only_picture))
-            image::check_writable(path);
-    }
-    post::Pictures pictures;
     bool const whole = a.options.part.is_whole();
     if (!whole && !file.postprocesses.empty())
         fmt::print(stderr, "warning: postprocesses need the whole picture and are left out\n");
+    for (io::PostprocessJob const& job : file.postprocesses)
+        for (std::string const& path : output_paths(a, output_of(file, job), only_picture))
+            if (whole) image::check_writable(path);
+    post::Pictures pictures;
     auto next = file.postprocesses.begin();
     for (size_t i = 0; i < file.jobs.size(); ++i) {
         post::Picture made;

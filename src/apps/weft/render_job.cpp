@@ -124,10 +124,11 @@ int finish(session::RenderOptions const& options, std::vector<std::string> const
             write_film(path, result.film, header, chain);
             fmt::print("{}\n", path);
         }
-        made = {result.image, plain_texts(header)};
+        made.metadata = plain_texts(header);
     }
     print_summary(result, options);
     progress.done(result);
+    made.image = std::move(result.image);
     bool const cancelled = result.cancelled;
     if (!whole) write_part(paths, std::move(result), world, job, options);
     return cancelled ? kInterrupted : kDone;
