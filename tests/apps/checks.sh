@@ -1,6 +1,13 @@
 # What the tests of the program share; to be sourced. They count in `failures`.
 failures=0
 
+# Goes to an empty folder, $work, that is gone when the test ends.
+enter_new_folder() {
+    work=$(mktemp -d)
+    trap 'rm -rf "$work"' EXIT
+    cd "$work" || exit 1
+}
+
 # expect CODE COMMAND...: runs it, keeping its output in `out` and `err`.
 expect() {
     local code=$1

@@ -3,9 +3,7 @@
 set -uo pipefail
 . "$(dirname "$0")/checks.sh"
 weft=$1
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
+enter_new_folder
 unset OCIO
 
 cat >plain.xml <<'X'

@@ -4,9 +4,7 @@
 set -uo pipefail
 . "$(dirname "$0")/checks.sh"
 weft=$1
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
+enter_new_folder
 
 # A reference of one grey, and pictures that are darker on the left and brighter on the right.
 cat >s.xml <<'X'

@@ -7,9 +7,7 @@ set -uo pipefail
 . "$(dirname "$0")/checks.sh"
 weft=$(realpath "$1")
 files=${3:-4} size=${4:-5800} memory=${5:-50}
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
+enter_new_folder
 export XDG_CACHE_HOME=$work/cache
 # peak COMMAND...: its largest resident set in megabytes, in the variable `peak`.
 peak() {

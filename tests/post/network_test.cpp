@@ -165,17 +165,8 @@ TEST(PublishedNetwork, KeepsLightsBright) {
 }
 
 TEST(PublishedNetwork, GivesFiniteLightForAnything) {
-    image::Image color = noisy_picture(96, 80), albedo = color, normal = color;
-    Rng rng(3);
-    float const limits[] = {std::numeric_limits<float>::quiet_NaN(),
-                            std::numeric_limits<float>::infinity(),
-                            -std::numeric_limits<float>::infinity(),
-                            3e38f,
-                            -3e38f,
-                            1e-45f};
-    for (image::Image* image : {&color, &albedo, &normal})
-        for (float& x : image->pixels)
-            if (uint32_t const n = rng.next_uint() % 60; n < 6) x = limits[n];
+    image::Image const color = unfit_picture(96, 80, 3), albedo = unfit_picture(96, 80, 4),
+                       normal = unfit_picture(96, 80, 5);
     DenoiseInput const input{&color, &albedo, &normal};
     PUBLISHED_OR_SKIP(input);
     for (float x : denoise_network(input, published(input), 1024).pixels)

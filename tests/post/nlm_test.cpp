@@ -95,17 +95,8 @@ TEST(Nlm, TilesAndThreadsDoNotShow) {
 }
 
 TEST(Nlm, GivesFiniteLightForAnything) {
-    image::Image color = noisy_picture(80, 70), albedo = color, normal = color;
-    Rng rng(3);
-    float const limits[] = {std::numeric_limits<float>::quiet_NaN(),
-                            std::numeric_limits<float>::infinity(),
-                            -std::numeric_limits<float>::infinity(),
-                            3e38f,
-                            -3e38f,
-                            1e-45f};
-    for (image::Image* image : {&color, &albedo, &normal})
-        for (float& x : image->pixels)
-            if (uint32_t const n = rng.next_uint() % 60; n < 6) x = limits[n];
+    image::Image const color = unfit_picture(80, 70, 3), albedo = unfit_picture(80, 70, 4),
+                       normal = unfit_picture(80, 70, 5);
     for (float x : denoise_nlm({&color, &albedo, &normal}).pixels)
         ASSERT_TRUE(std::isfinite(x) && x >= 0);
 }

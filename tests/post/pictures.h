@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <limits>
 
 #include "base/hash.h"
 #include "image/image.h"
@@ -34,6 +35,21 @@ inline image::Image noisy_picture(int width, int height, uint64_t seed = 1) {
             0.3f + 0.2f * std::sin(0.03f * float(x + 7 * c)) + ((x / 37 + y / 29) % 2 ? 0.5f : 0.f);
         return base * -std::log(1 - 0.999f * float(rng.next_uint()) / 4294967296.f);
     });
+}
+
+/// A noisy picture, a tenth of whose values no light can have.
+inline image::Image unfit_picture(int width, int height, uint64_t seed) {
+    constexpr float limits[] = {std::numeric_limits<float>::quiet_NaN(),
+                                std::numeric_limits<float>::infinity(),
+                                -std::numeric_limits<float>::infinity(),
+                                3e38f,
+                                -3e38f,
+                                1e-45f};
+    image::Image image = noisy_picture(width, height);
+    Rng rng(seed);
+    for (float& x : image.pixels)
+        if (uint32_t const n = rng.next_uint() % 60; n < 6) x = limits[n];
+    return image;
 }
 
 /// The bytes of a file of weights; `half` writes 16-bit floats (of values that have a few bits).
