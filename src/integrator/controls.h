@@ -44,7 +44,7 @@ inline float found_factor(world::World const& world, PathSettings const& setting
     if (!rules) return 1;
     uint32_t const bounces = path.signature.length();
     if (bounces > 0 && rules->sampling_alone && (path.pdf > 0 || !rules->shown)) return 0;
-    return rules->factor({path.p, path.sets, bounces, path.kind, distance});
+    return rules->factor({path.at.p, path.sets, bounces, path.kind, distance});
 }
 
 /// Hands light to the film, no more of it than a contribution over several bounces may have.

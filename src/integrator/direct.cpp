@@ -49,7 +49,7 @@ Connection connection(world::World const& world, PathSettings const& settings,
 Color counted(Connection const& c, lobes::LobeValue const& value, world::RayKind kind) {
     float const weight = c.combine ? power_heuristic(c.light.pdf, value.pdf) : 1;
     if (!c.rules) return value.f * weight;
-    world::Arrival const to{c.point.p, c.point.sets, c.bounces, kind, c.light.distance};
+    world::Arrival const to{c.point.at.p, c.point.sets, c.bounces, kind, c.light.distance};
     return value.f * (weight * c.rules->factor(to));
 }
 
@@ -86,7 +86,7 @@ Color transmitted(world::World const& world, PathSettings const& settings, PathS
     if (light.distance < kInfinity) {
         if (light.distance > c.point.reach) return Color(0);
         // From the offset origin to just before the light, whose own offset was added to `p`.
-        float const moved = dot(shadow.origin - c.point.p, light.wi);
+        float const moved = dot(shadow.origin - c.point.at.p, light.wi);
         shadow.t_max = (light.distance - moved) * (1 - 4 * std::numeric_limits<float>::epsilon()) -
                        light.p_error;
         if (!(shadow.t_max > 0)) return Color(0);
@@ -121,14 +121,11 @@ void add(PathSettings const& settings, PathState const& path, Connection const& 
     add_value(scattered.glossy);
 }
 
-} // namespace
-
-void direct(world::World const& world, PathSettings const& settings, PathState const& path,
-            ScatterPoint const& point, sampling::SampleStream const& u, uint32_t vertex,
-            film::SampleSink& sink) {
-    world::LightSample const light =
-        world.lights().sample(point.p, point.n, u.get3(sampling::Dimension::Light, vertex));
-    if (!(light.pdf > 0) || is_black(light.radiance)) return;
+/// One light sample at `point`, added to `sink`.
+void add_light(world::World const& world, PathSettings const& settings, PathState const& path,
+               ScatterPoint const& point, world::LightSample const& light,
+               sampling::SampleStream const& u, uint32_t vertex, film::SampleSink& sink) {
+    if (is_black(light.radiance)) return;
     Connection const c = connection(world, settings, path, point, light);
     // What rays can find is left to them where the strategy says so.
     if (settings.strategy == scene::Strategy::bsdf && !c.alone) return;
@@ -140,12 +137,10 @@ void direct(world::World const& world, PathSettings const& settings, PathState c
     add(settings, path, c, scattered, path.throughput * light.radiance * visible / light.pdf, sink);
 }
 
-void catch_shadow(world::World const& world, PathSettings const& settings, PathState const& path,
-                  ScatterPoint const& point, sampling::SampleStream const& u, uint32_t vertex,
-                  film::SampleRecord& record) {
-    world::LightSample const light =
-        world.lights().sample(point.p, point.n, u.get3(sampling::Dimension::Light, vertex));
-    if (!(light.pdf > 0)) return;
+/// One light sample at a shadow catcher, told to `record`.
+void catch_light(world::World const& world, PathSettings const& settings, PathState const& path,
+                 ScatterPoint const& point, world::LightSample const& light,
+                 sampling::SampleStream const& u, uint32_t vertex, film::SampleRecord& record) {
     Connection c = connection(world, settings, path, point, light);
     c.combine = false; // no ray helps
     Scattered const scattered = scatter(settings, path, c);
@@ -158,6 +153,26 @@ void catch_shadow(world::World const& world, PathSettings const& settings, PathS
     };
     record.add_caught(arriving * past(blockers ? world::kCatcherMask : 0),
                       arriving * past(blockers));
+}
+
+} // namespace
+
+void direct(world::World const& world, PathSettings const& settings, PathState const& path,
+            ScatterPoint const& point, sampling::SampleStream const& u, uint32_t vertex,
+            film::SampleSink& sink) {
+    world.lights().sample(point.at, u.get3(sampling::Dimension::Light, vertex),
+                          [&](auto const& light) {
+                              add_light(world, settings, path, point, light, u, vertex, sink);
+                          });
+}
+
+void catch_shadow(world::World const& world, PathSettings const& settings, PathState const& path,
+                  ScatterPoint const& point, sampling::SampleStream const& u, uint32_t vertex,
+                  film::SampleRecord& record) {
+    world.lights().sample(point.at, u.get3(sampling::Dimension::Light, vertex),
+                          [&](auto const& light) {
+                              catch_light(world, settings, path, point, light, u, vertex, record);
+                          });
 }
 
 float found_weight(scene::Strategy strategy, PathState const& path, float light_pdf) {

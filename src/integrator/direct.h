@@ -13,13 +13,13 @@ inline float power_heuristic(float pdf, float other) {
     return 1 / (1 + ratio * ratio);
 }
 
-/// One light sample at `point`, by the random numbers of `vertex`, added to `sink`: choice of
-/// light, shadow ray through transparent surfaces and media, MIS weight.
+/// Light samples at `point`, by the random numbers of `vertex`, added to `sink`: choice of up to
+/// `point.at.choices` lights, shadow rays through transparent surfaces and media, MIS weights.
 void direct(world::World const& world, PathSettings const& settings, PathState const& path,
             ScatterPoint const& point, sampling::SampleStream const& u, uint32_t vertex,
             film::SampleSink& sink);
 
-/// Tells `record` of one light sample at a shadow catcher that the camera sees: with nothing but
+/// Tells `record` of light samples at a shadow catcher that the camera sees: with nothing but
 /// other catchers in the light's way, and as it is.
 void catch_shadow(world::World const& world, PathSettings const& settings, PathState const& path,
                   ScatterPoint const& point, sampling::SampleStream const& u, uint32_t vertex,

@@ -19,9 +19,9 @@ void add_emission(world::World const& world, PathSettings const& settings, PathS
     if (is_black(emission)) return;
     int32_t const light = world.object(point.object).light;
     float const light_pdf =
-        light >= 0 && path.pdf > 0 ? world.lights().pdf(light, path.p, path.n, point) : 0;
+        light >= 0 && path.pdf > 0 ? world.lights().pdf(light, path.at, point) : 0;
     float const weight = found_weight(settings.strategy, path, light_pdf) *
-                         found_factor(world, settings, path, light, length(point.p - path.p));
+                         found_factor(world, settings, path, light, length(point.p - path.at.p));
     add_clamped(settings,
                 {path.throughput * emission * weight, light, path.signature, int32_t(point.object)},
                 sink);
@@ -37,10 +37,10 @@ void add_lamps(world::World const& world, PathSettings const& settings, PathStat
     ray.t_max = std::min(limit, path.ray.t_max);
     int32_t const medium = path.media.current().medium;
     world.lights().lamps(
-        ray, path.p, path.n, [&](int32_t light, Vec3 const& p, Color const& radiance, float pdf) {
+        ray, path.at, [&](int32_t light, Vec3 const& p, Color const& radiance, float pdf) {
             float const light_pdf = path.pdf > 0 ? pdf : 0;
             float const weight = found_weight(settings.strategy, path, light_pdf) *
-                                 found_factor(world, settings, path, light, length(p - path.p));
+                                 found_factor(world, settings, path, light, length(p - path.at.p));
             Color value = path.throughput * radiance * weight;
             if (medium >= 0)
                 value *= media::transmittance(world.medium(medium), length(p - path.ray.origin));
@@ -53,7 +53,7 @@ void add_background(world::World const& world, PathSettings const& settings, Pat
                     film::SampleSink& sink) {
     Color seen;
     world.lights().environment(
-        path.p, path.n, path.ray.direction, [&](int32_t light, Color const& radiance, float pdf) {
+        path.at, path.ray.direction, [&](int32_t light, Color const& radiance, float pdf) {
             if (path.signature.length() == 0 && world.lights()[light].hidden_from_camera) return;
             seen += radiance;
             float const weight = found_weight(settings.strategy, path, pdf) *
@@ -90,7 +90,7 @@ bool fly(world::World const& world, PathState& path, float limit, sampling::Samp
 void scatter_in_medium(world::World const& world, PathSettings const& settings, PathState& path,
                        uint32_t vertex, sampling::SampleStream const& u, film::SampleSink& sink) {
     ScatterPoint point;
-    point.p = path.ray.origin;
+    point.at = {path.ray.origin, Vec3(0), light_choices(settings, path)};
     point.wo = -path.ray.direction;
     point.g = world.medium(path.media.current().medium).g;
     if (uint32_t const object = path.media.current().object; object != UINT32_MAX)
@@ -100,8 +100,7 @@ void scatter_in_medium(world::World const& world, PathSettings const& settings, 
     path.caustic = false;
     if (sink.record()) record_volume(path, *sink.record());
     direct(world, settings, path, point, u, vertex, sink);
-    path.p = point.p;
-    path.n = Vec3(0);
+    path.at = point.at;
     path.sets = point.sets;
     path.kind = world::RayKind::volume;
     path.ray.mask = ray_mask(settings, path.kind);
@@ -134,8 +133,7 @@ bool scatter(PathSettings const& settings, PathState& path, lobes::BsdfSample co
     bool const delta = any(s.flags, lobes::LobeFlags::Delta);
     path.pdf = delta ? 0 : s.pdf;
     path.scattered |= !delta;
-    path.p = point.p;
-    path.n = point.n;
+    path.at = point.at;
     path.sets = point.sets;
     bool const diffuse = any(s.flags, lobes::LobeFlags::Diffuse);
     path.caustic = path.diffused && !diffuse;
@@ -199,8 +197,13 @@ void trace_path(world::World const& world, PathSettings const& settings, world::
                             path.scattered ? settings.secondary_roughness : 0);
             if (path.diffused && !settings.secondary_specular) shading.bsdf.keep_diffuse();
             ScatterPoint const here{
-                point.p,     shading.bsdf.frame().n,    wo, &shading.bsdf, &point, 0,
-                object.sets, reach_of(settings, object)};
+                {point.p, shading.bsdf.frame().n, light_choices(settings, path)},
+                wo,
+                &shading.bsdf,
+                &point,
+                0,
+                object.sets,
+                reach_of(settings, object)};
             bool const last = vertex == settings.depth;
             if (is_matte(settings, path, object)) {
                 if (object.holdout) return hold_out(path, sink);

@@ -20,6 +20,7 @@ struct PathSettings {
     bool full_materials = false; ///< without stand-ins for secondary rays
     bool controls = true;        ///< lights and objects heed theirs; else the rest is off, too
     bool by_part = false;        ///< these tell diffuse from glossy scattering
+    uint32_t light_samples = 1;  ///< lights chosen at once where a path scatters first
     bool caustics = true, secondary_specular = true;
     float secondary_roughness = 0;
     float indirect_clamp = kInfinity;
@@ -35,10 +36,9 @@ struct PathState {
     bool caustic = false;   ///< and then by a mirror, glass or gloss last
 
     // The last scattering, for weighing what the ray finds against what light sampling finds.
-    float pdf = 0;     ///< of the ray's direction; 0: delta or camera, which nothing else finds
-    Vec3 p{0, 0, 0};   ///< where it was
-    Vec3 n{0, 0, 0};   ///< normal there; 0 in a medium
-    uint64_t sets = 0; ///< of instances that it belongs to
+    float pdf = 0;      ///< of the ray's direction; 0: delta or camera, which nothing else finds
+    world::LitPoint at; ///< where it was
+    uint64_t sets = 0;  ///< of instances that it belongs to
     world::RayKind kind = world::RayKind::camera;
     float eta_scale = 1; ///< undoes the radiance scaling of refraction for roulette
 };
@@ -49,11 +49,15 @@ inline world::RayKind scattering_kind(lobes::LobeFlags flags, bool through) {
     return any(flags, lobes::LobeFlags::Diffuse) ? world::RayKind::diffuse : world::RayKind::glossy;
 }
 
+/// How many lights to choose at once where the path, as it got there, scatters next.
+inline uint32_t light_choices(PathSettings const& settings, PathState const& path) {
+    return path.scattered ? 1 : settings.light_samples;
+}
+
 /// A place where a path scatters: a surface with lobes, or a point in a medium with a phase
 /// function. `direct` treats both alike.
 struct ScatterPoint {
-    Vec3 p{0, 0, 0};
-    Vec3 n{0, 0, 0}; ///< 0 in a medium
+    world::LitPoint at;
     Vec3 wo{0, 0, 1};
     lobes::Bsdf const* bsdf = nullptr; ///< of a surface
     shading::SurfacePoint const* surface = nullptr;
@@ -63,7 +67,9 @@ struct ScatterPoint {
 
     lobes::LobeValue eval(Vec3 const& wi) const;
     /// Where a ray towards `wi` starts.
-    Vec3 origin(Vec3 const& wi) const { return surface ? shading::offset_origin(*surface, wi) : p; }
+    Vec3 origin(Vec3 const& wi) const {
+        return surface ? shading::offset_origin(*surface, wi) : at.p;
+    }
 };
 
 } // namespace weft::integrator

@@ -32,8 +32,13 @@
 // What the caller calls a light may be a part of one: meshes have a leaf for each triangle. A leaf
 // takes about 110 bytes.
 //
-// Left out: adaptive splitting (one light per call: a second shadow ray is the integrator's to
-// cast).
+// Adaptive splitting: the numbers (i + u) / n, i < n, go down together. Each branch is taken by as
+// many of them as its probability times n, rounded up or down at random (systematic sampling), so
+// that a node is split where n choices tell its children apart, and lights of one choice's worth
+// and more are there for certain. Those that two numbers arrive at are taken once: near one light
+// that outshines all others, fewer are chosen than where many matter. The paper splits by bounds of
+// the error of a cluster instead; choices in proportion to the importance are those of least
+// variance per shadow ray where the importance is true, and need no second measure.
 #pragma once
 
 #include <array>
@@ -70,7 +75,29 @@ class LightTree {
     /// That `choose` gives the light `index`: the same number to the last bit.
     float probability(Vec3 const& ref, Vec3 const& normal, uint32_t index) const;
 
+    /// Splitting: up to `count` different lights, each handed to f(Choice) with the chance that it
+    /// is among them as its probability. With a count of 1 that is `choose`.
+    template <class F>
+    void choose_each(Vec3 const& ref, Vec3 const& normal, double u, uint32_t count, F&& f) const {
+        uint32_t last = kNone;
+        for (uint32_t i = 0; i < count; ++i) {
+            Choice c = choose(ref, normal, (double(i) + u) / double(count));
+            if (!(c.probability > 0) || c.index == last) continue;
+            last = c.index;
+            c.probability = chance_of_several(c.probability, count);
+            f(c);
+        }
+    }
+    /// That `choose_each` gives the light `index`.
+    float probability(Vec3 const& ref, Vec3 const& normal, uint32_t index, uint32_t count) const {
+        return chance_of_several(probability(ref, normal, index), count);
+    }
+
   private:
+    static float chance_of_several(float probability, uint32_t count) {
+        return std::min(float(count) * probability, 1.f);
+    }
+
     static constexpr uint32_t kWidth = 4; ///< children of a node
     using Four = std::array<float, kWidth>;
 

@@ -176,6 +176,7 @@ struct PathIntegrator {
     int depth = 16;
     Strategy strategy = Strategy::mis;
     int roulette_depth = 3;
+    int light_samples = 1;
     bool full_materials = false;
     bool caustics = true;
     bool secondary_specular = true;
@@ -195,6 +196,13 @@ struct PathIntegrator {
           {.min = 1,
            .max = 100000,
            .help = "Vertices of a path that Russian roulette leaves alone."});
+        f("lightSamples", light_samples,
+          {.min = 1,
+           .max = 1024,
+           .soft_max = 16,
+           .help = "Up to so many lights are sampled at once where a path scatters first; fewer "
+                   "where few matter. Worth it where direct light from several lights is what is "
+                   "noisy."});
         f("fullMaterials", full_materials,
           {.help = "Materials are themselves also where they name a simpler one for `secondary` "
                    "rays; `weft compare` of both pictures tells what that costs in truth."});

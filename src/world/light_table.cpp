@@ -1,8 +1,5 @@
 #include "world/light_table.h"
 
-#include <bit>
-
-#include "base/hash.h"
 #include "world/world.h"
 
 namespace weft::world {
@@ -158,40 +155,27 @@ LightTable::Found LightTable::found_at(lights::SunDisk const& l, Vec3 const&, Ve
     return {l.radiance(d), l.pdf(d)};
 }
 
-namespace {
-
-/// The third random number has 24 digits, of which a million leaves take 20. The others say how it
-/// goes on.
-double with_more_digits(Vec3 const& u) {
-    uint32_t const rest = hash_combine(std::bit_cast<uint32_t>(u.x), std::bit_cast<uint32_t>(u.y));
-    return double(u.z) + double(rest) * 0x1p-56;
-}
-
-} // namespace
-
-LightSample LightTable::sample(Vec3 const& ref, Vec3 const& n, Vec3 const& u) const {
-    auto const choice = tree_.choose(ref, n, with_more_digits(u));
-    if (!(choice.probability > 0)) return {};
+LightSample LightTable::sample_chosen(lights::LightTree::Choice const& choice, Vec3 const& ref,
+                                      Vec2 u) const {
     uint32_t const light = light_of_leaf_.empty() ? choice.index : light_of_leaf_[choice.index];
     LightSample sample = match(lights_[light].kind, [&](auto const& l) {
-        return sample_light(l, ref, {u.x, u.y}, choice.index - first_leaf_[light]);
+        return sample_light(l, ref, u, choice.index - first_leaf_[light]);
     });
     sample.pdf *= choice.probability;
     sample.light = int32_t(light);
     return sample;
 }
 
-float LightTable::pdf(int32_t light, Vec3 const& ref, Vec3 const& n,
-                      shading::SurfacePoint const& point) const {
+float LightTable::pdf(int32_t light, LitPoint const& at, shading::SurfacePoint const& point) const {
     auto const& area = std::get<AreaLight>(lights_[size_t(light)].kind);
     return match(area.emitter, [&](auto const& e) {
         uint32_t const part = e.primitives() > 1 ? point.primitive : 0;
-        float const choice = tree_.probability(ref, n, first_leaf_[size_t(light)] + part);
-        if (choice == 0) return 0.f;
-        if constexpr (requires { e.at_uv(ref, point.uv); })
+        float const chosen = chance(at, first_leaf_[size_t(light)] + part);
+        if (chosen == 0) return 0.f;
+        if constexpr (requires { e.at_uv(at.p, point.uv); })
             if (area.texture)
-                return choice * area.texture->pdf(e, ref, point.p, point.ng, point.uv);
-        return choice * e.pdf(ref, point.p, point.ng, part);
+                return chosen * area.texture->pdf(e, at.p, point.p, point.ng, point.uv);
+        return chosen * e.pdf(at.p, point.p, point.ng, part);
     });
 }
 

@@ -1,11 +1,13 @@
 // All lights of a world, and how one is chosen and sampled.
 #pragma once
 
+#include <bit>
 #include <memory>
 #include <optional>
 #include <variant>
 #include <vector>
 
+#include "base/hash.h"
 #include "base/match.h"
 #include "lights/delta_lights.h"
 #include "lights/emitter_geometry.h"
@@ -61,11 +63,18 @@ struct Light {
     bool hidden_from_camera = false; ///< seen by bounced rays alone
 };
 
+/// A point to be lit, as far as the choice of lights goes.
+struct LitPoint {
+    Vec3 p{0, 0, 0};
+    Vec3 n{0, 0, 0};      ///< unit normal; 0 in a medium
+    uint32_t choices = 1; ///< up to so many lights at once
+};
+
 struct LightSample {
     Vec3 wi{0, 0, 1};
     float distance = 0; ///< infinite for lights at infinity
     Color radiance;     ///< for delta lights: irradiance on a facing surface
-    float pdf = 0;      ///< per solid angle, times the chance of the light; 0 = no sample
+    float pdf = 0;      ///< per solid angle, times the chance of the light
     bool delta = false; ///< `pdf` is the chance of the light alone
     float p_error = 0;  ///< how near to the light a shadow ray may go
     int32_t light = -1;
@@ -104,21 +113,28 @@ class LightTable {
     void commit_lamps(RTCDevice device);
     /// Whether no light is ever sampled.
     bool empty() const { return tree_.empty(); }
-    /// A light and a point on it, to illuminate `ref` with normal `n` (0 in a medium).
-    /// u.xy places the point, u.z chooses the light.
-    LightSample sample(Vec3 const& ref, Vec3 const& n, Vec3 const& u) const;
+    /// Calls f(LightSample) for each light that is chosen to illuminate `at`, with a point on it:
+    /// none, one, or up to `at.choices` different ones, whose contributions add up. u.z chooses the
+    /// lights, u.xy places the points: at the same place of each light, as each should see them
+    /// stratified over the samples of a pixel. Numbers by the order of choice would not be.
+    template <class F>
+    void sample(LitPoint const& at, Vec3 const& u, F&& f) const {
+        tree_.choose_each(at.p, at.n, with_more_digits(u), at.choices, [&](auto const& choice) {
+            LightSample const s = sample_chosen(choice, at.p, {u.x, u.y});
+            if (s.pdf > 0) f(s);
+        });
+    }
     /// The density with which `sample` gives a point that a ray found on the light.
-    float pdf(int32_t light, Vec3 const& ref, Vec3 const& n,
-              shading::SurfacePoint const& point) const;
+    float pdf(int32_t light, LitPoint const& at, shading::SurfacePoint const& point) const;
 
     /// Radiance from unit direction `d` of all lights infinitely far away that rays can meet, each
     /// with the density with which `sample` gives that direction: calls f(light, radiance, pdf).
     template <class F>
-    void environment(Vec3 const& ref, Vec3 const& n, Vec3 const& d, F&& f) const {
+    void environment(LitPoint const& at, Vec3 const& d, F&& f) const {
         for (int32_t i : environments_) {
             Found const found = match(lights_[size_t(i)].kind,
-                                      [&](auto const& light) { return found_at(light, ref, d); });
-            f(i, found.radiance, tree_.probability(ref, n, first_leaf_[size_t(i)]) * found.pdf);
+                                      [&](auto const& light) { return found_at(light, at.p, d); });
+            f(i, found.radiance, chance(at, first_leaf_[size_t(i)]) * found.pdf);
         }
     }
 
@@ -126,21 +142,35 @@ class LightTable {
     size_t memory_bytes() const;
 
     /// Radiance of all lamps that the ray meets before its t_max, each with the density with which
-    /// `sample` at `ref`, a point on the ray's line, gives its direction: calls f(light, p,
+    /// `sample` at `at`, a point on the ray's line, gives its direction: calls f(light, p,
     /// radiance, pdf) with the point where it is met.
     template <class F>
-    void lamps(Ray const& ray, Vec3 const& ref, Vec3 const& n, F&& f) const {
+    void lamps(Ray const& ray, LitPoint const& at, F&& f) const {
         if (!lamps_) return;
-        lamps_->each(ray, ref, [&](LampScene::Meeting const& met) {
+        lamps_->each(ray, at.p, [&](LampScene::Meeting const& met) {
             auto const& lamp = std::get<Lamp>(lights_[size_t(met.light)].kind);
             Vec3 const p = ray.origin + ray.direction * met.t;
-            float const pdf = tree_.probability(ref, n, first_leaf_[size_t(met.light)]) *
-                              lamp.luminaire.ball->pdf(ref, p, met.n);
+            float const pdf = chance(at, first_leaf_[size_t(met.light)]) *
+                              lamp.luminaire.ball->pdf(at.p, p, met.n);
             f(met.light, p, radiance(lamp, -ray.direction), pdf);
         });
     }
 
   private:
+    /// The third random number has 24 digits, of which a million leaves take 20. The others say how
+    /// it goes on.
+    static double with_more_digits(Vec3 const& u) {
+        uint32_t const rest =
+            hash_combine(std::bit_cast<uint32_t>(u.x), std::bit_cast<uint32_t>(u.y));
+        return double(u.z) + double(rest) * 0x1p-56;
+    }
+    /// That a leaf of the tree is among those that `sample` chooses.
+    float chance(LitPoint const& at, uint32_t leaf) const {
+        return tree_.probability(at.p, at.n, leaf, at.choices);
+    }
+    LightSample sample_chosen(lights::LightTree::Choice const& choice, Vec3 const& ref,
+                              Vec2 u) const;
+
     /// What a ray that leaves the scene finds of a light.
     struct Found {
         Color radiance;

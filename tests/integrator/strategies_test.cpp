@@ -156,6 +156,13 @@ std::vector<Case> cases(TemporaryFolder const& folder) {
         {"many lights and a sky in fog",
          kFloor + kBall + many_lights(30) + dim +
              R"(<medium type="homogeneous" absorption="0.02" scatter="0.1,0.15,0.2" phase="0.3"/>)"},
+        {"many lights, several at once", kFloor + kBall + many_lights(60), 4000,
+         "depth=\"6\" lightSamples=\"3\""},
+        {"several lights at once and a sky in fog",
+         kFloor + ball(rough_glass) + many_lights(30) + dim +
+             R"(<light type="point" position="1,2,-1" radius="0.5" power="20"/>
+                <medium type="homogeneous" absorption="0.02" scatter="0.1,0.15,0.2" phase="0.3"/>)",
+         4000, "depth=\"6\" lightSamples=\"5\""},
         {"constant sky", kFloor + kBall + dim},
         {"sky with bright spots", kFloor + kBall + sky, 8000},
         {"sky over rough metal",

@@ -223,6 +223,72 @@ TEST(LightTree, choosing_gives_the_irradiance_of_all) {
     }
 }
 
+TEST(LightTree, several_choices_follow_their_probabilities_and_give_the_sum_of_all) {
+    auto const all = cases();
+    double const level = sidak(kAlpha, int(2 * all.size() * places(all[0]).size()));
+    for (Case const& c : all) {
+        LightTree const tree(c.bounds);
+        size_t const count = c.bounds.size();
+        for (Place const& at : places(c))
+            for (uint32_t choices : {2u, 7u}) {
+                int const samples = 20'000;
+                std::vector<double> values(count), times(count), sums(samples);
+                Rng rng(29);
+                double total = 0;
+                for (uint32_t i = 0; i < count; ++i) {
+                    // About as important as it is said to be, so that the sum is nearly normal.
+                    values[i] =
+                        double(tree.probability(at.ref, at.normal, i) * (0.5f + rng.next()));
+                    double const p = double(tree.probability(at.ref, at.normal, i, choices));
+                    ASSERT_LE(p, 1);
+                    if (p > 0) total += values[i];
+                }
+                for (double& sum : sums) {
+                    uint32_t chosen = 0;
+                    tree.choose_each(
+                        at.ref, at.normal, double(rng.next()), choices, [&](auto const& choice) {
+                            ASSERT_EQ(choice.probability,
+                                      tree.probability(at.ref, at.normal, choice.index, choices));
+                            sum += values[choice.index] / double(choice.probability);
+                            ++times[choice.index];
+                            ++chosen;
+                        });
+                    ASSERT_LE(chosen, choices);
+                }
+                for (uint32_t i = 0; i < count; ++i) {
+                    double const p = double(tree.probability(at.ref, at.normal, i, choices));
+                    double const variance = std::max(samples * p * (1 - p), 1e-3);
+                    // Five sigma and a little for small counts: far below 0.01 for all together.
+                    EXPECT_NEAR(times[i], samples * p, 5 * std::sqrt(variance) + 5)
+                        << c.name << ' ' << i << " of " << choices;
+                }
+                auto const mean = weft::testing::estimate(sums);
+                double const sigma = std::sqrt(mean.variance) + 1e-5 * total;
+                if (sigma == 0) continue;
+                EXPECT_GT(weft::testing::normal_tail((mean.mean - total) / sigma), level)
+                    << c.name << ' ' << at.ref << ' ' << choices;
+            }
+    }
+}
+
+TEST(LightTree, as_many_choices_as_lights_of_the_same_importance_take_each_once) {
+    Case c{"", {}, {}};
+    for (int i = 0; i < 4; ++i) {
+        float const angle = float(i) * kPi / 2;
+        add(c, PointLight{{std::cos(angle), std::sin(angle), 1}}, 1);
+    }
+    LightTree const tree(c.bounds);
+    for (double u : {0.01, 0.3, 0.77, 0.99}) {
+        std::vector<uint32_t> chosen;
+        tree.choose_each(Vec3(0), Vec3(0), u, 4, [&](auto const& choice) {
+            chosen.push_back(choice.index);
+            EXPECT_NEAR(choice.probability, 1, 1e-5);
+        });
+        std::sort(chosen.begin(), chosen.end());
+        EXPECT_EQ(chosen, (std::vector<uint32_t>{0, 1, 2, 3}));
+    }
+}
+
 TEST(LightTree, the_rest_of_the_number_is_uniform) {
     Case c = random_case("", 12, 0.2f, Vec3(1), 31);
     c.bounds[5].at_infinity = c.bounds[8].at_infinity = true;

@@ -167,7 +167,8 @@ TEST(Nodes, SampledLightsEmitWhatRaysSee) {
         int compared = 0;
         for (int i = 0; i < 1000; ++i) {
             Vec3 const ref = (rng.next3() - Vec3(0.5f)) * 8.f;
-            LightSample const s = world.lights().sample(ref, Vec3(0), rng.next3());
+            LightSample s;
+            world.lights().sample({ref}, rng.next3(), [&](LightSample const& only) { s = only; });
             if (!(s.pdf > 0)) continue;
             Ray ray;
             ray.origin = ref, ray.direction = s.wi;
