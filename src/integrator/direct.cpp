@@ -53,23 +53,31 @@ Color counted(Connection const& c, lobes::LobeValue const& value, world::RayKind
     return value.f * (weight * c.rules->factor(to));
 }
 
-/// What of the light is scattered towards the camera: diffusely and glossily where these are told
-/// apart, else both in the first.
-struct Scattered {
-    Color diffuse, glossy;
-};
+/// What of the light is scattered towards the camera: by each part of the BSDF where these are told
+/// apart, else all in the first.
+using Scattered = std::array<Color, lobes::kParts.size()>;
+
+Color sum(Scattered const& scattered) {
+    Color all;
+    for (Color const& c : scattered) all += c;
+    return all;
+}
 
 Scattered scatter(PathSettings const& settings, PathState const& path, Connection const& c) {
     using lobes::LobeFlags;
     ScatterPoint const& point = c.point;
     Vec3 const& wi = c.light.wi;
-    if (!point.bsdf) return {counted(c, point.eval(wi), world::RayKind::volume), Color(0)};
-    if (!settings.by_part) return {counted(c, point.eval(wi), world::RayKind::diffuse), Color(0)};
-    auto const part = [&](LobeFlags of) {
-        return counted(c, point.bsdf->eval_part(point.wo, wi, of), scattering_kind(of, c.through));
-    };
-    bool const drops = path.diffused && !settings.caustics;
-    return {part(LobeFlags::Diffuse), drops ? Color(0) : part(LobeFlags::Glossy)};
+    if (!point.bsdf) return {counted(c, point.eval(wi), world::RayKind::volume)};
+    if (!settings.by_part) return {counted(c, point.eval(wi), world::RayKind::diffuse)};
+    Scattered scattered{};
+    for (size_t i = 0; i < scattered.size(); ++i) {
+        LobeFlags const part = lobes::kParts[i];
+        bool const makes_caustic = path.diffused && !any(part, LobeFlags::Diffuse);
+        if (makes_caustic && !settings.caustics) continue;
+        scattered[i] =
+            counted(c, point.bsdf->eval_part(point.wo, wi, part), scattering_kind(part, c.through));
+    }
+    return scattered;
 }
 
 /// The part of the light that gets to the point past what `blockers` is the mask of.
@@ -113,12 +121,13 @@ void add(PathSettings const& settings, PathState const& path, Connection const& 
     film::SampleRecord* const record = c.point.bsdf ? sink.record() : nullptr;
     if (!c.point.bsdf || !settings.by_part) {
         if (record) record_connection(path, *c.point.bsdf, c.point.wo, c.light.wi, *record);
-        return add_value(scattered.diffuse);
+        return add_value(scattered[0]);
     }
-    if (record) record_connection(path, lobes::LobeFlags::Diffuse, c.through, *record);
-    add_value(scattered.diffuse);
-    if (record) record_connection(path, lobes::LobeFlags::Glossy, c.through, *record);
-    add_value(scattered.glossy);
+    for (size_t i = 0; i < scattered.size(); ++i) {
+        if (is_black(scattered[i])) continue;
+        if (record) record_connection(path, lobes::kParts[i], c.through, *record);
+        add_value(scattered[i]);
+    }
 }
 
 /// One light sample at `point`, added to `sink`.
@@ -130,7 +139,7 @@ void add_light(world::World const& world, PathSettings const& settings, PathStat
     // What rays can find is left to them where the strategy says so.
     if (settings.strategy == scene::Strategy::bsdf && !c.alone) return;
     Scattered const scattered = scatter(settings, path, c);
-    if (is_black(scattered.diffuse) && is_black(scattered.glossy)) return;
+    if (is_black(sum(scattered))) return;
     Color const visible =
         transmitted(world, settings, path, c, shadow_mask(settings, c.rules), u, vertex);
     if (is_black(visible)) return;
@@ -144,8 +153,7 @@ void catch_light(world::World const& world, PathSettings const& settings, PathSt
     Connection c = connection(world, settings, path, point, light);
     c.combine = false; // no ray helps
     Scattered const scattered = scatter(settings, path, c);
-    Color const arriving =
-        path.throughput * (scattered.diffuse + scattered.glossy) * light.radiance / light.pdf;
+    Color const arriving = path.throughput * sum(scattered) * light.radiance / light.pdf;
     if (is_black(arriving)) return;
     world::RayMask const blockers = shadow_mask(settings, c.rules);
     auto const past = [&](world::RayMask mask) {

@@ -46,6 +46,7 @@ struct PathState {
 /// The kind of ray that leaves a surface, scattered diffusely or not, to the other side or not.
 inline world::RayKind scattering_kind(lobes::LobeFlags flags, bool through) {
     if (through) return world::RayKind::transmission;
+    if (any(flags, lobes::LobeFlags::Subsurface)) return world::RayKind::subsurface;
     return any(flags, lobes::LobeFlags::Diffuse) ? world::RayKind::diffuse : world::RayKind::glossy;
 }
 

@@ -37,6 +37,7 @@ Vec3 mean_normal(lobes::Bsdf const& bsdf) {
 
 Component component(LobeFlags flags, bool reflects) {
     if (!reflects) return Component::Transmission;
+    if (any(flags, LobeFlags::Subsurface)) return Component::Subsurface;
     return any(flags, LobeFlags::Diffuse) ? Component::Diffuse : Component::Specular;
 }
 
@@ -80,6 +81,7 @@ Color guide_weight(PathState const& path) { return path.throughput * path.eta_sc
 film::Bounce bounce_kind(lobes::LobeFlags flags) {
     using lobes::LobeFlags;
     bool const through = any(flags, LobeFlags::Transmission);
+    if (any(flags, LobeFlags::Subsurface)) return film::Bounce::Subsurface;
     if (any(flags, LobeFlags::Delta))
         return through ? film::Bounce::SpecularTransmission : film::Bounce::Specular;
     if (any(flags, LobeFlags::Glossy))

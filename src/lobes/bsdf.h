@@ -35,6 +35,7 @@
 #include "lobes/sheen.h"
 #include "lobes/specular_dielectric.h"
 #include "lobes/specular_reflection.h"
+#include "lobes/subsurface_diffuse.h"
 #include "lobes/transparent.h"
 
 namespace weft::lobes {
@@ -44,7 +45,7 @@ using LobeVariant =
     std::variant<Lambert, SpecularReflection, SpecularDielectric, GgxReflection, BeckmannReflection,
                  AshikhminShirleyReflection, GgxDielectric, BeckmannDielectric,
                  AshikhminShirleyDielectric, OrenNayar, BurleyDiffuse, DiffuseTransmission,
-                 Transparent, Sheen, DisneySheen, Clearcoat, Hair>;
+                 Transparent, Sheen, DisneySheen, Clearcoat, Hair, SubsurfaceDiffuse>;
 
 struct Lobe {
     Color weight;      ///< multiplies the kind's value
@@ -60,6 +61,11 @@ struct BsdfSample {
     LobeFlags flags{};   ///< the side of wi and the kind of the lobe picked
     float eta_scale = 1; ///< eta^2 of the lobe picked if it transmitted, else 1
 };
+
+/// The parts of a BSDF that light controls tell apart, and the flags that all lobes of a part have,
+/// and none of another.
+inline constexpr std::array kParts{LobeFlags::Diffuse, LobeFlags::Diffuse | LobeFlags::Subsurface,
+                                   LobeFlags::Glossy};
 
 class Bsdf {
   public:
@@ -134,8 +140,8 @@ class Bsdf {
     /// Whether wi is on wo's side of the surface itself.
     bool reflects(Vec3 const& wi) const { return dot(wi, geometric_normal_) > 0; }
 
-    /// The part of `eval` that is Diffuse, or else that which is Glossy. Which side of the surface
-    /// it is on, wi says.
+    /// The part of `eval` that a lobe with the flags `part` belongs to, see kParts. Which side of
+    /// the surface it is on, wi says.
     LobeValue eval_part(Vec3 const& wo, Vec3 const& wi, LobeFlags part) const;
 
     /// Picks a lobe by u.z, samples it by what is left of u; u in [0, 1)^3. With `by_part`, value
@@ -274,10 +280,11 @@ inline void Bsdf::prepare(Vec3 const& wo) {
 }
 
 inline LobeValue Bsdf::eval_part(Vec3 const& wo, Vec3 const& wi, LobeFlags part) const {
+    constexpr LobeFlags told_apart = LobeFlags::Diffuse | LobeFlags::Subsurface;
     LobeValue sum;
     for (int i = 0; i < count_; ++i) {
         LobeFlags const flags = match(lobes_[i].kind, [](auto const& l) { return l.flags(); });
-        if (any(flags, LobeFlags::Diffuse) != any(part, LobeFlags::Diffuse)) continue;
+        if ((flags & told_apart) != (part & told_apart)) continue;
         LobeValue const v = eval_folded({i, i + 1, frames_[lobes_[i].frame]}, wo, wi);
         sum.f += v.f;
         sum.pdf += v.pdf;

@@ -33,7 +33,8 @@ enum class LobeFlags : uint8_t {
     Diffuse = 4,
     Glossy = 8,
     Delta = 16,
-    Straight = 32, ///< goes on as if there were no surface
+    Straight = 32,   ///< goes on as if there were no surface
+    Subsurface = 64, ///< Diffuse, too: from below the surface
 };
 
 constexpr LobeFlags operator|(LobeFlags a, LobeFlags b) {
@@ -42,7 +43,7 @@ constexpr LobeFlags operator|(LobeFlags a, LobeFlags b) {
 constexpr LobeFlags operator&(LobeFlags a, LobeFlags b) {
     return LobeFlags(uint8_t(a) & uint8_t(b));
 }
-constexpr LobeFlags operator~(LobeFlags a) { return LobeFlags(~uint8_t(a) & 63); }
+constexpr LobeFlags operator~(LobeFlags a) { return LobeFlags(~uint8_t(a) & 127); }
 constexpr LobeFlags& operator|=(LobeFlags& a, LobeFlags b) { return a = a | b; }
 constexpr LobeFlags& operator&=(LobeFlags& a, LobeFlags b) { return a = a & b; }
 /// Whether the sets meet.

@@ -128,8 +128,9 @@ struct Disney {
         f("subsurface", subsurface,
           {.min = 0,
            .max = 1,
-           .help = "How much of the matte part is light from below: skin, wax, "
-                   "milk 1."});
+           .help = "How much of the matte part is light from below: skin, wax, milk 1. It comes "
+                   "out where it went in, whatever the two parameters below say; light controls "
+                   "and AOVs tell it from diffuse reflection."});
         f("subsurfaceRadius", subsurface_radius,
           {.min = 0, .help = "How far light travels below the surface, by colour, as a factor."});
         f("subsurfaceScale", subsurface_scale,

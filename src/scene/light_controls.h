@@ -22,7 +22,7 @@ struct LightControls {
     float weight = 1;
     int bounces = -1;
     float direct = 1, indirect = 1;
-    float diffuse = 1, specular = 1, transmission = 1, volume = 1;
+    float diffuse = 1, specular = 1, transmission = 1, volume = 1, subsurface = 1;
     bool visible_to_camera = true, visible_to_secondary = true;
     bool cast_shadows = true;
     std::string illuminates, shadowed_by;
@@ -54,6 +54,7 @@ struct LightControls {
           with("Factor on its light that mirrors and glossy surfaces reflect."));
         f("transmission", transmission, with("Factor on its light that surfaces let through."));
         f("volume", volume, with("Factor on its light that media scatter."));
+        f("subsurface", subsurface, with("Factor on its light that comes from below surfaces."));
         f("visibleToCamera", visible_to_camera,
           {.help = "Whether the camera sees the light itself."});
         f("visibleToSecondary", visible_to_secondary,

@@ -119,7 +119,10 @@ struct DisneyBuilder {
             b.add(Color(share), lobe);
             reflected = b.albedo(lobe, around);
         }
-        b.add(share * rest_of(reflected) * base, lobes::BurleyDiffuse{roughness});
+        Color const below = share * rest_of(reflected) * base;
+        float const subsurface = unit(at(m.subsurface));
+        b.add(below * (1 - subsurface), lobes::BurleyDiffuse{roughness});
+        b.add(below * subsurface, lobes::SubsurfaceDiffuse{{roughness}});
     }
 
     void build() {

@@ -11,6 +11,7 @@ bool is_visible(scene::RayVisibility const& v, RayKind kind) {
     case RayKind::camera:
         return v.camera;
     case RayKind::diffuse:
+    case RayKind::subsurface:
         return v.diffuse;
     case RayKind::glossy:
         return v.glossy;
@@ -22,8 +23,9 @@ bool is_visible(scene::RayVisibility const& v, RayKind kind) {
     return true;
 }
 
-constexpr std::array<RayKind, kRayKinds> kAllKinds{
-    RayKind::camera, RayKind::diffuse, RayKind::glossy, RayKind::transmission, RayKind::volume};
+constexpr std::array<RayKind, kRayKinds> kAllKinds{RayKind::camera, RayKind::diffuse,
+                                                   RayKind::glossy, RayKind::transmission,
+                                                   RayKind::volume, RayKind::subsurface};
 
 } // namespace
 

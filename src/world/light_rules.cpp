@@ -8,10 +8,15 @@ bool is_sampled_alone(scene::LightControls const& c) {
 
 LightRules::LightRules(scene::LightControls const& c, lights::LightBounds const& bounds,
                        float power, float cross_section)
-    : by_kind(c.diffuse != c.specular || c.diffuse != c.transmission || c.diffuse != c.volume),
+    : by_kind(c.diffuse != c.specular || c.diffuse != c.transmission || c.diffuse != c.volume ||
+              c.diffuse != c.subsurface),
       sampling_alone(is_sampled_alone(c)),
-      shown(c.visible_to_secondary), by_ray_kind_{c.visible_to_camera ? 1.f : 0.f, c.diffuse,
-                                                  c.specular, c.transmission, c.volume},
+      shown(c.visible_to_secondary), by_ray_kind_{c.visible_to_camera ? 1.f : 0.f,
+                                                  c.diffuse,
+                                                  c.specular,
+                                                  c.transmission,
+                                                  c.volume,
+                                                  c.subsurface},
       direct_(c.direct), indirect_(c.indirect), min_contribution_(c.min_contribution),
       at_infinity_(bounds.at_infinity) {
     scene::LightControls physics;

@@ -67,7 +67,7 @@ struct LightRules {
                             : intensity_ / std::max(length_squared(p - centre_), radius_squared_);
     }
 
-    std::array<float, kRayKinds> by_ray_kind_{1, 1, 1, 1, 1};
+    std::array<float, kRayKinds> by_ray_kind_{1, 1, 1, 1, 1, 1};
     float direct_ = 1, indirect_ = 1;
     uint32_t most_bounces_ = UINT32_MAX;
     float max_distance_ = kInfinity, min_contribution_ = 0;

@@ -5,14 +5,17 @@
 
 namespace weft::world {
 
-enum class RayKind : uint8_t { camera, diffuse, glossy, transmission, volume };
-inline constexpr uint32_t kRayKinds = 5;
+enum class RayKind : uint8_t { camera, diffuse, glossy, transmission, volume, subsurface };
+inline constexpr uint32_t kRayKinds = 6;
 
 /// What of an object's mask has to be set for a ray to meet it.
 using RayMask = uint32_t;
 
-constexpr RayMask mask_of(RayKind kind) { return 1u << uint32_t(kind); }
-inline constexpr RayMask kShadowMask = 1u << kRayKinds;
+/// What light from below a surface meets is what its diffuse light does.
+constexpr RayMask mask_of(RayKind kind) {
+    return 1u << uint32_t(kind == RayKind::subsurface ? RayKind::diffuse : kind);
+}
+inline constexpr RayMask kShadowMask = 1u << 5;
 /// Every object has it: rays that heed no control.
 inline constexpr RayMask kUnruledMask = 1u << 6;
 /// Shadow catchers have it.

@@ -29,6 +29,10 @@ std::string ball(std::string const& at, std::string const& bsdf,
 std::string const kGlossy =
     R"(<bsdf type="principled" baseColor="0.2,0.5,0.8" roughness="0.4" metallic="0.3" specular="1"/>)";
 std::string const kRoughGlass = R"(<bsdf type="roughdielectric" roughness="0.5"/>)";
+std::string wax(float subsurface, std::string const& color = "0.8,0.6,0.3") {
+    return "<bsdf type=\"disney\" roughness=\"0.4\" baseColor=\"" + color + "\" subsurface=\"" +
+           std::to_string(subsurface) + "\"/>";
+}
 std::string const kMirror = R"(<bsdf type="conductor" reflectance="0.9"/>)";
 
 /// The lamp that is controlled, above what the camera sees.
@@ -124,20 +128,21 @@ TEST(LightControls, KindsOfScatteringSumUp) {
     std::string const fog =
         R"(<medium type="homogeneous" absorption="0.02" scatter="0.1,0.15,0.2" phase="0.3"/>)";
     std::string const others[] = {"diffuse=\"0\" ", "specular=\"0\" ", "transmission=\"0\" ",
-                                  "volume=\"0\" "};
+                                  "volume=\"0\" ", "subsurface=\"0\" "};
     for (std::string const strategy : {"mis", "nee", "bsdf"}) {
         std::string const how = "depth=\"4\" strategy=\"" + strategy + "\"";
         for (bool foggy : {false, true}) {
-            std::string const scene = kAllKinds + (foggy ? fog : "");
+            std::string const scene =
+                kAllKinds + ball("0,-0.2,-1.4", wax(0.6f)) + (foggy ? fog : "");
             Equation e{strategy + (foggy ? ", fog" : ""), {}, {{scene + lamp(), how}}};
-            for (int kept = 0; kept < 4; ++kept) {
+            for (int kept = 0; kept < 5; ++kept) {
                 std::string controls;
-                for (int k = 0; k < 4; ++k)
+                for (int k = 0; k < 5; ++k)
                     if (k != kept) controls += others[k];
-                // The light itself is in each of the four.
+                // The light itself is in each of the five.
                 e.left.push_back({scene + lamp(controls), how});
             }
-            e.right.push_back({scene + lamp(), "depth=\"1\"", 3});
+            e.right.push_back({scene + lamp(), "depth=\"1\"", 4});
             equations.push_back(e);
         }
         equations.push_back({strategy + ": factors",
@@ -145,6 +150,21 @@ TEST(LightControls, KindsOfScatteringSumUp) {
                                "depth=\"3\" strategy=\"" + strategy + "\""}},
                              {{kAllKinds + lamp(), "depth=\"3\" strategy=\"" + strategy + "\"", 2},
                               {kAllKinds + lamp(), "depth=\"1\"", -1}}});
+    }
+    // Light from below the surface is a part of what the same matter sends back diffusely without.
+    for (std::string const strategy : {"mis", "nee", "bsdf"}) {
+        std::string const how = "depth=\"2\" strategy=\"" + strategy + "\"";
+        auto const lit = [&](std::string const& material, std::string const& controls,
+                             double factor) -> Picture {
+            return {kCamera + floor() + ball("0,-0.2,0", material) + lamp(controls), how, factor};
+        };
+        equations.push_back({strategy + ": no light from below",
+                             {lit(wax(0.6f), "subsurface=\"0\"", 1)},
+                             {lit(wax(0), "", 0.4), lit(wax(0, "0"), "", 0.6)}});
+        equations.push_back({strategy + ": light from below alone",
+                             {lit(wax(0.6f), "diffuse=\"0\"", 1)},
+                             {lit(wax(0), "diffuse=\"0\"", 1), lit(wax(1), "diffuse=\"0\"", 0.6),
+                              lit(wax(0), "diffuse=\"0\"", -0.6)}});
     }
     // What has no gloss loses nothing without gloss, and all of it without diffuse light.
     std::string const diffuse = kCamera + floor();

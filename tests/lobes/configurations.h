@@ -208,6 +208,11 @@ inline std::vector<Configuration<BurleyDiffuse>> test_configurations<BurleyDiffu
 }
 
 template <>
+inline std::vector<Configuration<SubsurfaceDiffuse>> test_configurations<SubsurfaceDiffuse>() {
+    return {{.name = "SubsurfaceDiffuse", .lobe = {{0.4f}}, .weighs_below_one = false}};
+}
+
+template <>
 inline std::vector<Configuration<DiffuseTransmission>> test_configurations<DiffuseTransmission>() {
     return {{"DiffuseTransmission", {}}};
 }

@@ -38,6 +38,8 @@ std::map<std::string, std::string> const kScenes{
         <medium type="homogeneous" absorption="0.02" scatter="0.1"/>
         <instance><shape type="sphere"/><bsdf type="conductor" reflectance="0.9,0.8,0.5"/></instance>
         <light type="directional" direction="1,2,-1" intensity="2"/>)"},
+    {"wax", kFloor + kLamp + kSky + R"(
+        <instance><shape type="sphere"/><bsdf type="disney" subsurface="0.7" roughness="0.3"/></instance>)"},
     {"gel and a leaf", kFloor + kLamp + kSky + R"(
         <instance><shape type="rectangle"/><bsdf type="transparent" transmittance="0.9,0.3,0.2"/><transform><translate z="-1"/></transform></instance>
         <instance><shape type="sphere"/><bsdf type="translucent"/><transform><translate z="1"/></transform></instance>)"},
@@ -100,6 +102,28 @@ std::vector<Aov> const kComponentAovs{Aov::emission,
                                       Aov::indirect_volume,
                                       Aov::direct_subsurface,
                                       Aov::indirect_subsurface};
+
+TEST(Aovs, LightFromBelowIsTheShareOfTheMatter) {
+    auto const of = [](char const* subsurface) {
+        return Channels(
+            render_aovs(kCamera + kSky +
+                            R"(<instance><shape type="sphere"/><bsdf type="disney" subsurface=")" +
+                            subsurface + R"("/></instance>)",
+                        {Aov::direct_diffuse, Aov::direct_subsurface}, 256)
+                .film);
+    };
+    Channels const some = of("0.25"), all = of("1"), none = of("0");
+    double diffuse = 0, below = 0, whole = 0;
+    for (size_t i = 0; i < some.size(); ++i) {
+        diffuse += double(some.at("direct_diffuse.G", i));
+        below += double(some.at("direct_subsurface.G", i));
+        whole += double(none.at("direct_diffuse.G", i));
+        EXPECT_EQ(none.at("direct_subsurface.G", i), 0);
+        EXPECT_EQ(all.at("direct_diffuse.G", i), 0);
+    }
+    EXPECT_NEAR(below / (diffuse + below), 0.25, 1e-5); // of one shape: exact but for rounding
+    EXPECT_NEAR((diffuse + below) / whole, 1, 3e-3);    // noise of 300,000 samples
+}
 
 TEST(Aovs, ComponentsAndLightGroupsAddUpToBeauty) {
     for (auto const& [name, contents] : kScenes)
