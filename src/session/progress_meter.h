@@ -52,7 +52,8 @@ class ProgressMeter {
 
   private:
     double seconds_left() const {
-        double const left = std::max(0.0, total_ - done()) / rate();
+        double const more = total_ - done(); // the maximum with 0 would hide that nobody knows it
+        double const left = std::isnan(more) ? more : std::max(0.0, more) / rate();
         if (options_.seconds <= 0) return left;
         double const until = std::max(0.0, options_.seconds - seconds());
         return std::isnan(left) ? until : std::min(left, until);

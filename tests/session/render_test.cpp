@@ -218,6 +218,33 @@ TEST(Progress, EndsAtOne) {
     EXPECT_EQ(last.seconds_left, 0);
 }
 
+TEST(Progress, IsUnknownUntilTheNoiseIsLookedAt) {
+    // So many pixels that the first report comes long before each has the samples for a decision.
+    TestScene const scene = make_scene(R"(
+        <camera type="perspective" width="2000" height="1500" fov="50"/>
+        <light type="envmap"><texture type="constant" value="1"/></light>)");
+    for (double seconds : {0.0, 1e6}) {
+        std::atomic<bool> cancel{false};
+        RenderOptions options;
+        options.noise = 1e-4;
+        options.seconds = seconds;
+        options.threads = 1;
+        options.cancel = &cancel;
+        std::optional<Progress> first;
+        options.on_progress = [&](Progress const& p) {
+            if (!first) first = p;
+            cancel = true;
+        };
+        render_with(scene, options);
+        ASSERT_TRUE(first && !first->noise);
+        EXPECT_LT(first->fraction, 0.5);
+        if (seconds > 0)
+            EXPECT_GT(first->seconds_left, 1e5);
+        else
+            EXPECT_TRUE(std::isnan(first->seconds_left));
+    }
+}
+
 TEST(BadSamples, AreCountedAndLocated) {
     // Two lamps whose light overflows where both are added, seen in the left half alone.
     TestScene const scene =
