@@ -160,6 +160,10 @@ uint32_t sample_limit(io::RenderJob const& job, RenderOptions const& options) {
                                                     : uint32_t(sample_count(job.sampler));
 }
 
+int footprint_samples(io::RenderJob const& job, RenderOptions const& options) {
+    return options.spp > 0 ? options.spp : sample_count(job.sampler);
+}
+
 namespace {
 
 /// The passes of one render, and what it decides between them.
@@ -296,9 +300,8 @@ RenderResult render(world::World const& world, io::RenderJob const& job,
     film::Layout const layout = make_layout(world, job, options);
     check_memory(result.region, layout, !options.watchers.empty(), job.where);
     result.samples = sample_limit(job, options);
-    int const footprint = options.spp > 0 ? options.spp : sample_count(job.sampler);
     integrator::PixelRenderer const renderer(world, job.integrator, job.sampler, options.seed,
-                                             footprint);
+                                             footprint_samples(job, options));
     result.film = film::Film(result.region, layout);
     double seconds_before = 0;
     if (options.resume) {

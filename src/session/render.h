@@ -111,6 +111,9 @@ film::Layout make_layout(world::World const& world, io::RenderJob const& job,
 /// The samples per pixel that the render makes at most.
 uint32_t sample_limit(io::RenderJob const& job, RenderOptions const& options);
 
+/// The samples per pixel that texture footprints are made for.
+int footprint_samples(io::RenderJob const& job, RenderOptions const& options);
+
 /// Everything about a result that a state file keeps, its film moved out.
 RenderState to_state(RenderResult&& result, world::World const& world, io::RenderJob const& job,
                      RenderOptions const& options);

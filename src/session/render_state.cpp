@@ -12,6 +12,7 @@
 #include "image/atomic_file.h"
 #include "io/file_bytes.h"
 #include "scene/scene_hash.h"
+#include "session/adaptive.h"
 
 namespace weft::session {
 
@@ -94,6 +95,14 @@ std::string channels_text(film::Layout const& layout) {
     return text;
 }
 
+/// The samples per pixel that they are made for, where those are others than the picture's.
+std::string footprint_text(io::RenderJob const& job, RenderOptions const& options) {
+    int const samples = footprint_samples(job, options);
+    return uint32_t(samples) == sample_limit(job, options)
+               ? "as samples per pixel"
+               : fmt::format("as of {} samples", samples);
+}
+
 /// Pixel samples that a finished part has in its film.
 bool is_finished(RenderState const& s) {
     uint32_t const last = s.part.last == 0 ? s.samples : s.part.last;
@@ -116,6 +125,7 @@ Identity identify(world::World const& world, io::RenderJob const& job,
             {"integrator", text_of(job.integrator)},
             {"sampler", match(job.sampler, [](auto const& s) { return std::string(s.info.type); })},
             {"samples per pixel", std::to_string(sample_limit(job, options))},
+            {"texture footprints", footprint_text(job, options)},
             {"noise", options.noise > 0 ? fmt::format("{}", options.noise) : "any"},
             {"seed", std::to_string(options.seed)},
             {"size", fmt::format("{}x{}", size.x, size.y)},
@@ -165,7 +175,9 @@ RenderState read_state(std::string_view bytes, std::string const& name) {
             film::Film::read_state(bytes.substr(start + head, bytes.size() - 8 - start - head));
         bool const sane = state.tile_size >= 1 && state.part.shard >= 1 &&
                           state.part.shard <= state.part.shards &&
-                          state.part.first <= state.part.last;
+                          state.part.first <= state.part.last &&
+                          (state.pass.active.empty() ||
+                           state.pass.active.size() == BlockGrid(state.film.region()).size());
         if (!sane) throw fail("the file is damaged");
         return state;
     } catch (nlohmann::json::exception const&) {

@@ -44,7 +44,8 @@ TEST(State, IsReadAsItIsWritten) {
     RenderState state = part_of(scene, {2, 3, 0, 0});
     state.note = "a \"note\"\n";
     state.seconds = 1.0 / 3;
-    state.pass.active = {1, 0, 1};
+    state.pass.active.assign(6 * 4, 1); // blocks of 8 x 8 pixels
+    state.pass.active[1] = 0;
     state.bad_samples = 5;
     float const nan = std::numeric_limits<float>::quiet_NaN();
     state.first_bad_samples = {{{3, 4}, 7, Color(nan, 1, -2)}};
@@ -72,6 +73,30 @@ TEST(State, NotesWhatIsDamaged) {
         EXPECT_THROW(read_state(changed, "name"), InputError) << at;
         EXPECT_THROW(read_state(std::string_view(bytes).substr(0, at), "name"), InputError) << at;
     }
+}
+
+TEST(State, HasAByteForEachBlock) {
+    RenderState state = part_of(small_scene(), {});
+    state.pass.active = {1, 0, 1};
+    EXPECT_THROW(read_state(write_state(state), "name"), InputError);
+}
+
+TEST(Identity, KnowsWhatTexturesAreFilteredFor) {
+    // Without --spp the sampler's count is no limit of such a render, but makes its footprints.
+    std::string const contents = "<camera type=\"perspective\" width=\"8\" height=\"8\"/>";
+    auto const identity = [&](char const* count, RenderOptions const& options) {
+        TestScene const scene = make_scene(contents, "type=\"path\"", "",
+                                           "type=\"sobol\" count=\"" + std::string(count) + "\"");
+        return identify(*scene.world, scene.job, options);
+    };
+    RenderOptions options;
+    options.noise = 0.1;
+    EXPECT_NE(difference(identity("4", options), identity("16", options)), "");
+    options.spp = 64;
+    EXPECT_EQ(difference(identity("4", options), identity("16", options)), "");
+    RenderOptions stated;
+    stated.spp = 16;
+    EXPECT_EQ(difference(identity("4", stated), identity("16", {})), "");
 }
 
 TEST(Parts, ShardsJoinToTheSameFilm) {
