@@ -248,6 +248,8 @@ void write_image(std::string const& path, Image const& image, Metadata const& me
         write_display(path, image, metadata);
 }
 
+bool is_exr(std::string const& path) { return extension_of(path) == ".exr"; }
+
 bool is_for_screens(std::string const& path) { return is_display_format(extension_of(path)); }
 
 bool holds_alpha(std::string const& path) { return !extension_of(path).starts_with(".jp"); }

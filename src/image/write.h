@@ -71,6 +71,9 @@ std::vector<unsigned char> png_bytes(int width, int height, int channels,
 /// another extension.
 void write_image(std::string const& path, Image const& image, Metadata const& metadata = {});
 
+/// By the extension, in capitals or not.
+bool is_exr(std::string const& path);
+
 /// Whether `write_image` encodes for a screen what it writes to `path`, by the extension: PNG, JPEG
 /// and TIFF.
 bool is_for_screens(std::string const& path);

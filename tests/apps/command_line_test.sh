@@ -60,6 +60,8 @@ for word in albedo.R CryptoObject02.A cryptomatte/3ae39a5/manifest weft:sceneHas
     grep -aq "$word" layers.exr || fail "layers.exr has no $word"
 done
 expect 0 "$weft" compare layers.png layers.png
+expect 0 "$weft" render s.xml -o layers.EXR --aov albedo
+grep -aq albedo.R layers.EXR || fail "layers.EXR has no albedo"
 expect 0 env SOURCE_DATE_EPOCH=0 "$weft" render s.xml -o same1.exr --threads 1
 expect 0 env SOURCE_DATE_EPOCH=0 "$weft" render s.xml -o same2.exr --tile 7
 cmp -s same1.exr same2.exr || fail "equal input gave other bytes"
@@ -115,6 +117,13 @@ expect 2 "$weft" render missing.xml
 expect 2 "$weft" render s.xml -o nowhere/a.exr
 expect 2 "$weft" render s.xml -o a.tga
 expect 2 "$weft" render s.xml --sppp 3
+expect 2 "$weft" render s.xml --noise nan
+expect 2 "$weft" compare a.exr b.exr --mae -1
+has "--mae: expects a number of at least 0, found '-1'" err
+expect 2 "$weft" compare a.exr b.exr --flip nan
+expect 2 "$weft" render s.xml -o "$(printf 'a%.0s' {1..300})/b.exr"
+has "File name too long" err
+expect 2 "$weft" docs /proc/pages
 expect 2 "$weft"
 sed 's/diffuse/difuse/' s.xml >bad.xml
 cp a.exr old.exr

@@ -41,6 +41,8 @@ expect 0 "$weft" compare again.exr clean.exr --mae 1e-6
 expect 1 "$weft" compare again.exr noisy.exr --mae 0
 expect 0 "$weft" denoise noisy.exr --backend nlm -o plain.png
 [ -s plain.png ] || fail "plain.png is missing"
+expect 0 "$weft" denoise plain.png --backend nlm -o again.png # screen colours remain such
+expect 0 "$weft" compare again.png plain.png --me 0.01
 
 # What is wrong is told before anything is written.
 rm -f x.exr

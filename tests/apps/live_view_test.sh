@@ -69,6 +69,16 @@ expect 0 "$weft" compare w.png w.png
 wait $pid || fail "watching ended the render"
 expect 2 "$weft" render s.xml -o w.exr --watch nowhere/w.png
 
+# A picture to watch that can no longer be written takes nothing from the render.
+mkdir gone
+"$weft" render s.xml -o kept.exr --time 8s --watch gone/w.png >out 2>err &
+pid=$!
+for _ in $(seq 300); do [ -s gone/w.png ] && break; sleep 0.1; done
+rm -r gone
+wait $pid || fail "a lost picture to watch ended the render"
+[ -s kept.exr ] || fail "a lost picture to watch took the picture with it"
+[ "$(grep -c 'the picture to watch was not written' err)" = 1 ] || fail "it is not told once"
+
 # A preview is small and quick, unless said otherwise.
 expect 0 "$weft" render s.xml -o p.exr --preview
 has "20 x 15 pixels, 8 samples each" err

@@ -111,12 +111,21 @@ expect 0 "$weft" render s.xml --spp 2 -o c.exr --checkpoint 60s --restart
 expect 2 "$weft" render s.xml -o f.exr --checkpoint-file /proc/weft.checkpoint
 has "cannot make a file in its folder" err
 [ ! -e f.exr ] || fail "it rendered all the same"
+for other in f.exr ./s.xml watched.png; do
+    expect 2 "$weft" render s.xml -o f.exr --watch watched.png --checkpoint-file $other
+    has "--checkpoint-file expects a file of its own" err
+done
 cp copy f.exr.checkpoint
 expect 2 bash -c "trap '' XFSZ; ulimit -f 100; $weft render s.xml --spp 1000000 -o f.exr --resume"
 has "no room for a second file" err
 cmp -s copy f.exr.checkpoint || fail "a full disk took the old checkpoint"
 expect 2 bash -c "trap '' XFSZ; ulimit -f 100; $weft render s.xml -o g.exr --checkpoint 60s"
 [ ! -e g.exr ] && [ ! -e g.exr.checkpoint ] || fail "it rendered all the same"
+
+# Of several outputs one that finds no room takes the others not with it.
+expect 2 bash -c "trap '' XFSZ; ulimit -f 50; $weft render s.xml -o large.exr -o small.png"
+has "large.exr: cannot write" err
+[ ! -e large.exr ] && [ -s small.png ] || fail "a full disk took the small picture, too"
 
 # Postprocesses want the whole picture: a part of a scene that has some is made without them.
 mkdir post

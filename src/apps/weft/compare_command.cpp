@@ -6,6 +6,7 @@
 
 #include "apps/weft/commands.h"
 #include "apps/weft/compare_report.h"
+#include "apps/weft/number_check.h"
 #include "base/color.h"
 #include "image/atomic_file.h"
 #include "image/compare.h"
@@ -75,7 +76,7 @@ void print(Comparison const& c, bool ldr) {
 void write_difference(Arguments const& args, image::Image const& a, image::Image const& b,
                       double largest) {
     image::Image const difference = image::difference_image(a, b);
-    bool const exr = args.difference.ends_with(".exr");
+    bool const exr = image::is_exr(args.difference);
     image::write_image(args.difference, exr ? difference : signed_colors(difference, largest));
     fmt::print(
         "{}{}\n", args.difference,
@@ -185,13 +186,18 @@ void add_compare_command(CLI::App& app, Command& chosen) {
                   "Write a page for a browser that shows the pictures against each other: a line "
                   "to drag, exposure, zoom, difference, FLIP, and these numbers")
         ->type_name("OUT.html");
-    c->add_option("--mae", args->mae, "Largest mean absolute error allowed");
-    c->add_option("--me", args->me, "Largest magnitude of the mean error allowed");
-    c->add_option("--mse", args->mse, "Largest mean squared error allowed");
-    c->add_option("--relmse", args->rel_mse, "Largest relative mean squared error allowed");
+    c->add_option("--mae", args->mae, "Largest mean absolute error allowed")
+        ->check(number_within(0));
+    c->add_option("--me", args->me, "Largest magnitude of the mean error allowed")
+        ->check(number_within(0));
+    c->add_option("--mse", args->mse, "Largest mean squared error allowed")
+        ->check(number_within(0));
+    c->add_option("--relmse", args->rel_mse, "Largest relative mean squared error allowed")
+        ->check(number_within(0));
     c->add_option("--flip", args->flip,
                   "Print mean FLIP (LDR-FLIP of screen colours, else HDR-FLIP); the largest "
-                  "allowed, 1 for any");
+                  "allowed, 1 for any")
+        ->check(number_within(0));
     c->callback([args, &chosen] { chosen = [args] { return run(*args); }; });
 }
 

@@ -35,6 +35,7 @@ image::Image read_linear(std::string const& path) {
     image::Image image = image::read_image(path);
     if (image.is_srgb_encoded)
         for (float& x : image.pixels) x = srgb_to_linear(x);
+    image.is_srgb_encoded = false;
     return image;
 }
 
@@ -106,11 +107,14 @@ void check_sum(Arguments const& a, image::Image const& color,
 void write(Arguments const& a, image::Image const& image, post::Backend backend) {
     image::Metadata const more{
         {"weft:postprocess", fmt::format("denoising ({})", post::backend_name(backend))}};
-    bool const exr = a.output.ends_with(".exr") && a.input.ends_with(".exr");
+    bool const exr = image::is_exr(a.output) && image::is_exr(a.input);
     if (exr) {
         image::rewrite_exr(a.output, a.input, image, more);
     } else {
+        // What else a header says, of its numbers as light, is not true of another kind of file.
         image::Metadata metadata = image::read_metadata(a.input);
+        std::erase_if(metadata, [](auto const& m) { return !m.first.starts_with("weft:"); });
+        metadata["Software"] = "Weft " WEFT_VERSION;
         metadata.insert(more.begin(), more.end());
         image::write_image(
             a.output,

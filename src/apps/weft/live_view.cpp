@@ -89,16 +89,24 @@ int connect_to(std::string const& address) {
 
 } // namespace
 
-session::Watcher png_watcher(std::string const& path, post::DisplayChain const& chain) {
-    image::check_writable(path);
-    return {2, [path, chain](session::RenderState const& state) {
-                try {
-                    post::write_picture(path, state.film.mean(), chain, {});
-                } catch (std::exception const& e) {
-                    fmt::print(stderr, "\nwarning: the picture to watch was not written: {}\n",
-                               e.what());
-                }
-            }};
+WatchedPicture::WatchedPicture(std::string path, post::DisplayChain chain)
+    : path_(std::move(path)), chain_(std::move(chain)) {
+    image::check_writable(path_);
+}
+
+void WatchedPicture::show(image::Image const& beauty) {
+    try {
+        post::write_picture(path_, beauty, chain_, {});
+        told_.clear();
+    } catch (std::exception const& e) {
+        if (told_ != e.what())
+            fmt::print(stderr, "\nwarning: the picture to watch was not written: {}\n", e.what());
+        told_ = e.what();
+    }
+}
+
+session::Watcher WatchedPicture::watcher() {
+    return {2, [this](session::RenderState const& state) { show(state.film.mean()); }};
 }
 
 TevClient::TevClient(std::string const& address, std::string name)

@@ -9,8 +9,22 @@
 
 namespace weft::apps {
 
-/// Writes the beauty so far to `path` every two seconds; each is a whole file.
-session::Watcher png_watcher(std::string const& path, post::DisplayChain const& chain);
+/// The beauty so far in a file, each time a whole one. A file that cannot be written is no reason
+/// to stop a render, nor to lose its end: that is told once.
+class WatchedPicture {
+  public:
+    /// Throws InputError where `path` cannot be written.
+    WatchedPicture(std::string path, post::DisplayChain chain);
+
+    void show(image::Image const& beauty);
+    /// Shows every two seconds.
+    session::Watcher watcher();
+
+  private:
+    std::string path_;
+    post::DisplayChain chain_;
+    std::string told_; ///< the last failure
+};
 
 /// A picture in tev, or in any program that speaks the same.
 class TevClient {

@@ -1,6 +1,7 @@
 // The command line: `weft render`, `merge`, `replay`, `test`, `info`, `compare`, `display`,
 // `bloom`, `maketx`, `denoise`, `help`, `schema`, `docs`.
 #include <cstdio>
+#include <filesystem>
 
 #include "apps/weft/commands.h"
 #include "apps/weft/interrupt.h"
@@ -40,6 +41,9 @@ int main(int argc, char** argv) {
         return kInputError;
     } catch (weft::image::IoError const& e) {
         std::fprintf(stderr, "error: %s\n", e.what());
+        return kInputError;
+    } catch (std::filesystem::filesystem_error const& e) { // a path that the system does not take
+        std::fprintf(stderr, "error: %s: %s\n", e.path1().c_str(), e.code().message().c_str());
         return kInputError;
     } catch (std::exception const& e) {
         std::fprintf(stderr, "internal error: %s\n", e.what());

@@ -1,7 +1,6 @@
 #include "apps/weft/picture_file.h"
 
 #include <cstdlib>
-#include <filesystem>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -112,7 +111,7 @@ image::ExrHeader picture_header(session::RenderResult const& result, io::RenderJ
 
 void write_film(std::string const& path, film::Film const& film, image::ExrHeader const& header,
                 post::DisplayChain const& chain) {
-    if (std::filesystem::path(path).extension() == ".exr")
+    if (image::is_exr(path))
         image::write_described_exr(path, film.image(), header);
     else if (film.layout().has(film::Aov::alpha))
         post::write_picture(path, select(film.image(), {"R", "G", "B", "A"}), chain,

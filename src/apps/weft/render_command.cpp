@@ -5,6 +5,7 @@
 #include <set>
 
 #include "apps/weft/commands.h"
+#include "apps/weft/number_check.h"
 #include "apps/weft/picture_file.h"
 #include "apps/weft/render_job.h"
 #include "apps/weft/scene_loading.h"
@@ -156,7 +157,7 @@ void add_render_command(CLI::App& app, Command& chosen) {
                   "Render until the estimated relative error is below this everywhere, for example "
                   "0.02; --spp is then the most that a pixel gets (65536 if not said)")
         ->type_name("X")
-        ->check(CLI::Range(1e-5, 10.0));
+        ->check(number_within(1e-5, 10));
     c->add_option("--time", a->time,
                   "Render until this time is up, in whole passes: 90s, 10m, 2h; with --noise and "
                   "--spp, whichever comes first")

@@ -1,5 +1,6 @@
 #include "apps/weft/render_job.h"
 
+#include <exception>
 #include <filesystem>
 #include <fmt/format.h>
 
@@ -70,15 +71,24 @@ void check_aovs(RenderArguments const& a, io::RenderJob const& job,
                 std::vector<std::string> const& paths) {
     if (!a.options.part.is_whole()) return;
     bool const wanted = !a.options.aovs.empty() || !session::wanted_aovs(job.integrator).empty();
-    auto const is_exr = [](std::string const& path) {
-        return fs::path(path).extension() == ".exr";
-    };
-    if (!wanted || std::any_of(paths.begin(), paths.end(), is_exr)) return;
+    if (!wanted || std::any_of(paths.begin(), paths.end(), image::is_exr)) return;
     if (!a.options.aovs.empty())
         throw InputError("--aov expects an output that can hold further channels (.exr), found '" +
                          paths.front() + "'");
     fmt::print(stderr, "warning: the AOVs that the scene asks for are not written: only .exr files "
                        "hold them\n");
+}
+
+/// Files that would take each other's place. `fs::weakly_canonical` knows them by whatever path.
+void check_checkpoint_file(RenderArguments const& a, std::vector<std::string> const& outputs) {
+    if (a.checkpoint.file.empty()) return;
+    auto const is_it = [&](std::string const& other) {
+        return fs::weakly_canonical(other) == fs::weakly_canonical(a.checkpoint.file);
+    };
+    if (std::any_of(outputs.begin(), outputs.end(), is_it) || is_it(a.scene) ||
+        (!a.watch.empty() && is_it(a.watch)))
+        throw InputError("--checkpoint-file expects a file of its own, found '" +
+                         a.checkpoint.file + "', which is another of the render's files");
 }
 
 void report_bad_samples(session::RenderResult const& r, uint32_t seed) {
@@ -105,6 +115,21 @@ void write_part(std::vector<std::string> const& paths, session::RenderResult&& r
     }
 }
 
+/// All that can be written is; then it throws what the first of the others had to say.
+void write_outputs(std::vector<std::string> const& paths, film::Film const& film,
+                   image::ExrHeader const& header, post::DisplayChain const& chain) {
+    std::exception_ptr failure;
+    for (std::string const& path : paths) {
+        try {
+            write_film(path, film, header, chain);
+            fmt::print("{}\n", path);
+        } catch (image::IoError const&) {
+            if (!failure) failure = std::current_exception();
+        }
+    }
+    if (failure) std::rethrow_exception(failure);
+}
+
 /// Writes what there is, says what was reached, and returns the exit code; `made` becomes the
 /// picture.
 int finish(session::RenderOptions const& options, std::vector<std::string> const& paths,
@@ -120,10 +145,7 @@ int finish(session::RenderOptions const& options, std::vector<std::string> const
     progress.phase("write");
     if (whole) {
         image::ExrHeader const header = picture_header(result, job, world, options.seed);
-        for (std::string const& path : paths) {
-            write_film(path, result.film, header, chain);
-            fmt::print("{}\n", path);
-        }
+        write_outputs(paths, result.film, header, chain);
         made.metadata = plain_texts(header);
     }
     print_summary(result, options);
@@ -184,6 +206,7 @@ int render_job(RenderArguments const& a, io::RenderJob const& job, bool only_pic
     check_outputs(paths, a.options.part);
     check_aovs(a, job, paths);
     check_part(a, job);
+    check_checkpoint_file(a, paths);
     progress.phase("commit");
     auto const world = commit_world(job, a.isa, a.size);
     for (std::string const& lint : world::lint_warnings(*world, job.integrator))
@@ -204,7 +227,11 @@ int render_job(RenderArguments const& a, io::RenderJob const& job, bool only_pic
         options.resume = checkpoint->found();
         options.watchers.push_back(checkpoint->watcher());
     }
-    if (!a.watch.empty()) options.watchers.push_back(png_watcher(a.watch, chain));
+    std::optional<WatchedPicture> watched;
+    if (!a.watch.empty()) {
+        watched.emplace(a.watch, chain);
+        options.watchers.push_back(watched->watcher());
+    }
     std::optional<TevClient> tev;
     if (!a.tev.empty()) {
         tev.emplace(a.tev, paths.front());
@@ -214,7 +241,7 @@ int render_job(RenderArguments const& a, io::RenderJob const& job, bool only_pic
     session::RenderResult result = session::render(*world, job, options);
     if (result.cancelled) progress.stop();
     if (tev) tev->show(result.film);
-    if (!a.watch.empty()) post::write_picture(a.watch, result.image, chain, {});
+    if (watched) watched->show(result.image);
     if (std::string const failure = textures.failure(); !failure.empty())
         fmt::print(stderr, "warning: a texture was lost during the render: {}\n", failure);
     if (checkpoint && result.cancelled) {
