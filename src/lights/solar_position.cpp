@@ -1,5 +1,6 @@
 #include "lights/solar_position.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -36,7 +37,8 @@ SolarPosition solar_position(int year, int month, int day, double hour, double z
         std::atan2(std::sin(angle), std::cos(angle) * std::sin(latitude) -
                                         std::tan(declination) * std::cos(latitude));
     double const azimuth = std::fmod(south + std::numbers::pi, 2 * std::numbers::pi);
-    return {std::asin(sine), azimuth < 0 ? azimuth + 2 * std::numbers::pi : azimuth};
+    return {std::asin(std::clamp(sine, -1.0, 1.0)),
+            azimuth < 0 ? azimuth + 2 * std::numbers::pi : azimuth};
 }
 
 } // namespace weft::lights

@@ -23,6 +23,10 @@ inline constexpr float kSunDiameter = 0.533f;
 /// alpha = -0.023 + 0.292 / lambda, lambda in um, at 610, 550 and 465 nm.
 inline constexpr Color kSunLimb{0.456f, 0.508f, 0.605f};
 
+/// Radians. Directions of floats do not tell the points of a smaller disk apart, and below 1e-19
+/// its solid angle is none of a float.
+inline constexpr float kLeastSunRadius = 1e-6f;
+
 struct SunDisk {
     struct Sample {
         Vec3 direction{0, 0, 1}; ///< unit, towards the light

@@ -38,7 +38,7 @@ void WorldBuilder::add_light(scene::DirectionalLight const& light, SourceLocatio
         scene::scale_of(light.color, light.unit);
     Vec3 const direction = normalize(light.direction);
     float const power = list.cross_section * luminance(irradiance);
-    if (light.angle > 0)
+    if (radians(0.5f * light.angle) >= lights::kLeastSunRadius)
         list.add(lights::make_sun_disk(direction, radians(0.5f * light.angle), irradiance),
                  at_infinity(), power, light.controls, true);
     else

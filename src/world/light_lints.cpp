@@ -73,7 +73,7 @@ class LightLints {
 
     World const& world_;
     scene::Scene const& scene_;
-    double radius_ = 0; ///< of the scene, in its units
+    double radius_ = 1; ///< of the scene, in its units; 1 where nothing is there
     std::vector<std::string> warnings_;
     std::set<std::string> said_;
 };
@@ -176,8 +176,11 @@ void LightLints::look_around(Light const& light) {
                    [](auto const&) {},
                },
                light.kind);
+    // Rays cannot start further out (Embree's FLT_LARGE), nor is anything there to be inside of.
+    constexpr float farthest = 1e18f;
     uint32_t found = UINT32_MAX;
     for (Vec3 const& p : points) {
+        if (!(max_component(abs(p)) < farthest)) return;
         uint32_t const here = enclosure_of(p, own);
         if (here == UINT32_MAX || (found != UINT32_MAX && found != here)) return;
         found = here;

@@ -4,9 +4,17 @@
 
 namespace weft::world {
 
+namespace {
+
+/// What a light's power counts as at most, so that those of millions have a finite sum.
+constexpr float kMostPower = 1e30f;
+
+} // namespace
+
 void LightList::add(LightKind kind, std::span<lights::LightBounds const> leaves,
                     scene::LightControls const& controls, bool hidden_from_camera) {
-    lights::LightBounds const all = leaves.empty() ? lights::LightBounds() : lights::unite(leaves);
+    lights::LightBounds all = leaves.empty() ? lights::LightBounds() : lights::unite(leaves);
+    all.power = std::min(all.power, kMostPower);
     lights.push_back({std::move(kind),
                       controls,
                       {controls, all, all.power, cross_section},
@@ -16,7 +24,7 @@ void LightList::add(LightKind kind, std::span<lights::LightBounds const> leaves,
     first_leaf.push_back(uint32_t(bounds.size()));
     for (lights::LightBounds const& leaf : leaves) {
         bounds.push_back(leaf);
-        bounds.back().power *= controls.weight;
+        bounds.back().power = std::min(bounds.back().power * controls.weight, kMostPower);
         bounds.back().weight = controls.weight;
     }
 }

@@ -49,26 +49,28 @@ bool shows_light(scene::Integrator const& integrator) {
 
 } // namespace
 
-std::vector<std::string> lint_warnings(World const& world, scene::Integrator const& integrator) {
+std::vector<std::string> lint_warnings(World const& world, scene::Integrator const& integrator,
+                                       SourceLocation const& where) {
     std::vector<std::string> warnings;
     scene::Scene const& scene = world.scene();
     bool emits = world.statistics().lights > 0;
     for (uint32_t i = 0; i < world.statistics().objects; ++i) {
         Object const& o = world.object(i);
-        std::string const where = to_string(scene.instance_locations[size_t(o.source_instance)]);
+        std::string const at = to_string(scene.instance_locations[size_t(o.source_instance)]);
         emits |= bool(o.emission);
         if (o.emission && o.light < 0)
-            warnings.push_back(where + ": emits light but is no <light type=\"area\">: only rays "
-                                       "that hit it by chance find it, which is noisy");
+            warnings.push_back(at + ": emits light but is no <light type=\"area\">: only rays "
+                                    "that hit it by chance find it, which is noisy");
         if (!o.material && !o.emission && !o.is_null && emits)
-            warnings.push_back(where + ": has no <bsdf> and will be black");
+            warnings.push_back(at + ": has no <bsdf> and will be black");
     }
     for (size_t i = 0; i < scene.materials.size(); ++i)
         if (std::string const lint = match(scene.materials[i], MaterialLint{scene}); !lint.empty())
             warnings.push_back(to_string(scene.material_locations[i]) + ": " + lint);
     if (!shows_light(integrator)) return warnings;
     if (!emits)
-        warnings.push_back("the scene has no light: the picture will be black; add a <light>");
+        warnings.push_back(to_string(where) +
+                           ": the scene has no light: the picture will be black; add a <light>");
     for (std::string& warning : light_warnings(world)) warnings.push_back(std::move(warning));
     return warnings;
 }

@@ -14,7 +14,9 @@ namespace weft::world {
 
 /// "file:line:column: what, and what to do about it". Of lights nothing is said to an integrator
 /// that draws none (`normal`, `aov`, ...).
-std::vector<std::string> lint_warnings(World const& world, scene::Integrator const& integrator);
+/// `where`: the place of the integrator.
+std::vector<std::string> lint_warnings(World const& world, scene::Integrator const& integrator,
+                                       SourceLocation const& where);
 
 /// The part of it that is about lights.
 std::vector<std::string> light_warnings(World const& world);

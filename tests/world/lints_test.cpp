@@ -20,7 +20,7 @@ std::string const kLamp = R"(<light type="area"><instance><shape type="disk"/>
 std::vector<std::string> warnings(std::string const& contents, std::string const& folder = "",
                                   std::string const& integrator = "type=\"path\"") {
     auto const scene = make_scene(kCamera + contents, integrator, folder);
-    return lint_warnings(*scene.world, scene.job.integrator);
+    return lint_warnings(*scene.world, scene.job.integrator, scene.job.where);
 }
 /// The only thing said holds all of `parts`.
 void expect_one(std::string const& contents, std::vector<std::string> const& parts) {
@@ -46,8 +46,16 @@ TEST(Lints, AreSilentAboutGoodScenes) {
 }
 
 TEST(Lints, NoLight) {
-    expect_one(kFloor, {"no light", "add a <light>"});
+    expect_one(kFloor, {"test:1:1: ", "no light", "add a <light>"});
     EXPECT_TRUE(warnings(kFloor, "", "type=\"normal\"").empty());
+}
+
+TEST(Lints, ScenesWithoutSurfaces) {
+    expect_none(R"(<light type="envmap"><texture type="constant" value="1"/></light>)");
+}
+
+TEST(Lints, LightsFartherThanRaysCanStart) {
+    expect_none(kFloor + kLamp + point("position=\"1e20,0,0\""));
 }
 
 TEST(Lints, LightsWithoutPower) {

@@ -39,7 +39,7 @@ int run(Arguments const& args) {
                    "images\n  memory     {:.1f} MB of geometry and of textures in memory\n",
                    s.objects, s.triangles, s.unique_triangles, s.lights, job.scene->images.size(),
                    double(s.memory_bytes) / 1e6);
-        for (std::string const& warning : world::lint_warnings(*world, job.integrator))
+        for (std::string const& warning : world::lint_warnings(*world, job.integrator, job.where))
             fmt::print("  warning: {}\n", warning);
     }
     print_textures(file.textures->statistics());

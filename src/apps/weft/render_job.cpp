@@ -209,7 +209,7 @@ int render_job(RenderArguments const& a, io::RenderJob const& job, bool only_pic
     check_checkpoint_file(a, paths);
     progress.phase("commit");
     auto const world = commit_world(job, a.isa, a.size);
-    for (std::string const& lint : world::lint_warnings(*world, job.integrator))
+    for (std::string const& lint : world::lint_warnings(*world, job.integrator, job.where))
         fmt::print(stderr, "warning: {}\n", lint);
 
     session::RenderOptions options = a.options;
