@@ -21,7 +21,7 @@ if(WEFT_SANITIZE)
   target_link_options(weft_flags INTERFACE -fsanitize=${WEFT_SANITIZE})
 endif()
 
-set(weft_libraries_base Imath::Imath)
+set(weft_libraries_base Imath::Imath Threads::Threads)
 set(weft_libraries_image OpenImageIO::OpenImageIO)
 set(weft_libraries_io pugixml::pugixml nlohmann_json::nlohmann_json fmt::fmt)
 set(weft_libraries_schema nlohmann_json::nlohmann_json fmt::fmt)
