@@ -1,4 +1,9 @@
 // A file that replaces another in one step (see image/write.h).
+//
+// The temporary file beside it is locked (flock) by its writer, and a lock ends with its process:
+// so the next writer of the same target knows the file of one that was killed, and removes it,
+// and never that of a living one, on whatever machine. Process numbers in names could not tell that
+// over a network. Where a file system knows no locks, what a killed process left stays.
 #pragma once
 
 #include <functional>

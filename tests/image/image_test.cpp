@@ -1,6 +1,7 @@
 // Files written and read again, files that are damaged, and writes that fail half way.
 #include "base/color.h"
 #include "base/hash.h"
+#include "image/atomic_file.h"
 #include "image/image.h"
 #include "image/write.h"
 
@@ -17,6 +18,7 @@
 #include <limits>
 
 #include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 using namespace weft;
@@ -325,6 +327,98 @@ TEST_F(ImageFiles, AWriteKeepsThePermissionsOfTheOldFile) {
     EXPECT_EQ(fs::status(path("a.exr")).permissions(), fs::perms(0640));
     EXPECT_EQ(read_image(path("a.exr")).width, 8);
     EXPECT_EQ(count_files(), 1u);
+}
+
+/// Writes `text` as one step, calling `half_way` in its middle.
+void replace_text(std::string const& file, std::string const& text, auto half_way) {
+    replace_file(file, [&](int descriptor, std::string const&) {
+        size_t const half = text.size() / 2;
+        ASSERT_EQ(::write(descriptor, text.data(), half), ssize_t(half));
+        half_way();
+        ASSERT_EQ(::write(descriptor, text.data() + half, text.size() - half),
+                  ssize_t(text.size() - half));
+    });
+}
+
+/// Runs `f` in a process of its own.
+pid_t start_process(auto f) {
+    pid_t const pid = ::fork();
+    if (pid != 0) return pid;
+    f();
+    ::_exit(::testing::Test::HasFailure());
+}
+
+TEST_F(ImageFiles, AWriteRemovesWhatAKilledOneLeft) {
+    std::string const file = path("a.checkpoint");
+    for (int k = 0; k < 3; ++k) {
+        pid_t const pid =
+            start_process([&] { replace_text(file, "killed", [] { ::raise(SIGKILL); }); });
+        int status = 0;
+        ASSERT_EQ(::waitpid(pid, &status, 0), pid);
+        ASSERT_TRUE(WIFSIGNALED(status));
+        EXPECT_EQ(count_files(), size_t(k > 0) + 1) << "its temporary file, and no other's";
+        probe_folder(file);
+        EXPECT_EQ(count_files(), size_t(k > 0));
+        replace_text(file, "whole", [] {});
+        EXPECT_EQ(count_files(), 1u);
+        EXPECT_EQ(read_bytes(file), "whole");
+    }
+}
+
+TEST_F(ImageFiles, AWriteHarmsNoLivingOne) {
+    std::string const file = path("a.checkpoint");
+    int ready[2], go[2];
+    ASSERT_EQ(::pipe(ready) | ::pipe(go), 0);
+    pid_t const pid = start_process([&] {
+        replace_text(file, "the other process", [&] {
+            char c = 0;
+            ASSERT_EQ(::write(ready[1], &c, 1), 1);
+            ASSERT_EQ(::read(go[0], &c, 1), 1);
+        });
+    });
+    char c = 0;
+    ASSERT_EQ(::read(ready[0], &c, 1), 1);
+    for (int k = 0; k < 3; ++k) replace_text(file, "this process", [] {});
+    EXPECT_EQ(read_bytes(file), "this process");
+    EXPECT_EQ(count_files(), 2u);
+    ASSERT_EQ(::write(go[1], &c, 1), 1);
+    int status = -1;
+    ASSERT_EQ(::waitpid(pid, &status, 0), pid);
+    EXPECT_EQ(status, 0);
+    EXPECT_EQ(read_bytes(file), "the other process");
+    EXPECT_EQ(count_files(), 1u);
+    for (int d : {ready[0], ready[1], go[0], go[1]}) ::close(d);
+}
+
+TEST_F(ImageFiles, ManyWritersAtOnceAllSucceed) {
+    std::string const file = path("a.checkpoint");
+    std::vector<pid_t> writers;
+    for (char letter = 'a'; letter < 'g'; ++letter)
+        writers.push_back(start_process([&] {
+            for (int k = 0; k < 100; ++k) {
+                replace_text(file, std::string(1000, letter), [] {});
+                std::string const found = read_bytes(file);
+                EXPECT_EQ(found, std::string(1000, found.at(0)));
+            }
+        }));
+    for (pid_t const pid : writers) {
+        int status = -1;
+        EXPECT_EQ(::waitpid(pid, &status, 0), pid);
+        EXPECT_EQ(status, 0);
+    }
+    EXPECT_EQ(count_files(), 1u);
+}
+
+TEST_F(ImageFiles, AWriteLeavesLinksAndFoldersAlone) {
+    std::string const file = path("a.checkpoint");
+    write_bytes(path("precious"), "precious");
+    fs::create_symlink("precious", path(".a.part-0.checkpoint"));
+    fs::create_directory(path(".a.part-1.checkpoint"));
+    replace_text(file, "whole", [] {});
+    EXPECT_EQ(read_bytes(path("precious")), "precious");
+    EXPECT_EQ(read_bytes(file), "whole");
+    EXPECT_TRUE(fs::is_symlink(path(".a.part-0.checkpoint")));
+    EXPECT_TRUE(fs::is_directory(path(".a.part-1.checkpoint")));
 }
 
 TEST_F(ImageFiles, CheckWritableTellsWhyNot) {
