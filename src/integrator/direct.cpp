@@ -1,5 +1,6 @@
 #include "integrator/direct.h"
 
+#include "base/feature.h"
 #include "integrator/controls.h"
 #include "integrator/media_walk.h"
 #include "integrator/record.h"
@@ -64,6 +65,7 @@ Color sum(Scattered const& scattered) {
 }
 
 Scattered scatter(PathSettings const& settings, PathState const& path, Connection const& c) {
+    FeatureScope const scope(c.point.bsdf ? Feature::Bsdf : Feature::Media);
     using lobes::LobeFlags;
     ScatterPoint const& point = c.point;
     Vec3 const& wi = c.light.wi;

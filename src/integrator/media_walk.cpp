@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "base/feature.h"
+
 namespace weft::integrator {
 
 void cross_boundary(world::World const& world, shading::SurfacePoint const& point,
@@ -15,6 +17,7 @@ void cross_boundary(world::World const& world, shading::SurfacePoint const& poin
 
 Color media_transmittance(world::World const& world, world::Ray ray, media::MediumStack& stack,
                           uint32_t alpha_seed) {
+    FeatureScope const scope(Feature::Media);
     Color through(1);
     for (uint32_t crossing = 0; crossing < kMaxCrossings; ++crossing) {
         world::Hit const hit = world.intersect_passable(ray, alpha_seed);

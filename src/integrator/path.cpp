@@ -1,5 +1,6 @@
 #include "integrator/path.h"
 
+#include "base/feature.h"
 #include "integrator/controls.h"
 #include "integrator/direct.h"
 #include "integrator/media_walk.h"
@@ -75,6 +76,7 @@ bool fly(world::World const& world, PathState& path, float limit, sampling::Samp
          uint32_t vertex) {
     int32_t const medium = path.media.current().medium;
     if (medium < 0) return false;
+    FeatureScope const scope(Feature::Media);
     Vec2 const u_distance = u.get2(Dimension::Distance, vertex);
     media::MediumSample const s =
         media::sample_distance(world.medium(medium), path.throughput, limit, u_distance);
@@ -89,6 +91,7 @@ bool fly(world::World const& world, PathState& path, float limit, sampling::Samp
 /// Light sampling at the ray's origin inside the medium, and a new direction.
 void scatter_in_medium(world::World const& world, PathSettings const& settings, PathState& path,
                        uint32_t vertex, sampling::SampleStream const& u, film::SampleSink& sink) {
+    FeatureScope const scope(Feature::Media);
     ScatterPoint point;
     point.at = {path.ray.origin, Vec3(0), light_choices(settings, path)};
     point.wo = -path.ray.direction;
@@ -120,6 +123,13 @@ void continue_from(world::World const& world, PathState& path, shading::SurfaceP
     path.ray.t_min = world::Ray().t_min;
     path.ray.t_max -= point.t;
     path.ray.cone.width = path.ray.cone.width_at(point.t);
+}
+
+/// Where light that goes to `wo` may come from.
+lobes::BsdfSample sample_bsdf(lobes::Bsdf const& bsdf, Vec3 const& wo, Vec3 const& u,
+                              bool by_part) {
+    FeatureScope const scope(Feature::Bsdf);
+    return bsdf.sample(wo, u, by_part);
 }
 
 /// Scattering at a surface by the sample `s`. Whatever goes straight on where light sampling sees
@@ -222,7 +232,7 @@ void trace_path(world::World const& world, PathSettings const& settings, world::
                 direct(world, settings, path, here, u, step, sink);
 
             lobes::BsdfSample const s =
-                shading.bsdf.sample(wo, u.get3(Dimension::Bsdf, step), settings.by_part);
+                sample_bsdf(shading.bsdf, wo, u.get3(Dimension::Bsdf, step), settings.by_part);
             if (!(s.pdf > 0)) return;
             if (sink.record())
                 record_bounce(settings, path, shading.bsdf, wo, s, object.is_see_through,

@@ -1,5 +1,6 @@
 #include "integrator/pixel_renderer.h"
 
+#include "base/feature.h"
 #include "integrator/media_walk.h"
 
 namespace weft::integrator {
@@ -146,15 +147,20 @@ bool PixelRenderer::follows_light() const {
     });
 }
 
-Color PixelRenderer::sample(Vec2i pixel, uint32_t sample, film::SampleRecord* record) const {
+world::Ray PixelRenderer::camera_ray(Vec2i pixel, sampling::SampleStream const& u) const {
     using sampling::Dimension;
-    sampling::SampleStream const u(sampler_, pixel, sample, seed_);
+    FeatureScope const scope(Feature::Camera);
     Vec2 const offset = film::sample_filter(filter_, u.get2(Dimension::Film));
     Vec2 const raster(float(pixel.x) + 0.5f + offset.x, float(pixel.y) + 0.5f + offset.y);
     world::CameraRays const& camera = world_.camera();
-    world::Ray const ray =
-        camera.ray(raster, camera.has_lens() ? u.get2(Dimension::Lens) : Vec2(0.5f),
-                   u.get1(Dimension::Time), path_.footprint_scale);
+    return camera.ray(raster, camera.has_lens() ? u.get2(Dimension::Lens) : Vec2(0.5f),
+                      u.get1(Dimension::Time), path_.footprint_scale);
+}
+
+Color PixelRenderer::sample(Vec2i pixel, uint32_t sample, film::SampleRecord* record) const {
+    using sampling::Dimension;
+    sampling::SampleStream const u(sampler_, pixel, sample, seed_);
+    world::Ray const ray = camera_ray(pixel, u);
     // That of a path's first vertex, so that all pictures of a scene see the same surfaces.
     uint32_t const alpha_seed = world_.has_alpha() ? u.walk(Dimension::Alpha, 1).next_uint() : 0;
     return match(integrator_, [&](auto const& i) {

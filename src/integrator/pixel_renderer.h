@@ -27,6 +27,7 @@ class PixelRenderer {
     bool follows_light() const;
 
   private:
+    world::Ray camera_ray(Vec2i pixel, sampling::SampleStream const& u) const;
     Color trace(scene::CameraIntegrator const& i, world::Ray const& ray, uint32_t alpha_seed) const;
     Color trace(scene::AovIntegrator const& i, world::Ray const& ray, uint32_t alpha_seed) const;
     Color trace(scene::NormalIntegrator const& i, world::Ray const& ray, uint32_t alpha_seed) const;

@@ -1,5 +1,6 @@
 #include "integrator/record.h"
 
+#include "base/feature.h"
 namespace weft::integrator {
 
 namespace {
@@ -92,6 +93,7 @@ film::Bounce bounce_kind(lobes::LobeFlags flags) {
 void record_surface(world::World const& world, PathState const& path,
                     shading::SurfacePoint const& point, shading::Shading const& shading,
                     film::SampleRecord& record) {
+    FeatureScope const scope(Feature::Film);
     if (record.log())
         record.log()->push_back({.kind = film::PathEvent::Kind::Surface,
                                  .p = point.p,
@@ -117,6 +119,7 @@ void record_surface(world::World const& world, PathState const& path,
 void record_bounce(PathSettings const& settings, PathState const& path, lobes::Bsdf const& bsdf,
                    Vec3 const& wo, lobes::BsdfSample const& sample, bool see_through,
                    film::SampleRecord& record) {
+    FeatureScope const scope(Feature::Film);
     bool const first = path.signature.length() == 0;
     bool const straight = see_through && any(sample.flags, LobeFlags::Straight);
     bool const delta = any(sample.flags, LobeFlags::Delta);
@@ -144,6 +147,7 @@ void record_bounce(PathSettings const& settings, PathState const& path, lobes::B
 
 void record_connection(PathState const& path, lobes::Bsdf const& bsdf, Vec3 const& wo,
                        Vec3 const& wi, film::SampleRecord& record) {
+    FeatureScope const scope(Feature::Film);
     if (path.signature.length() == 0 && record.layout().has_light())
         record.set_shares(shares_of(bsdf, wo, wi));
 }

@@ -1,5 +1,7 @@
 #include "lights/light_tree.h"
 
+#include "base/feature.h"
+
 namespace weft::lights {
 
 namespace {
@@ -39,6 +41,7 @@ LightTree::Four LightTree::importances(Node const& node, Vec3 const& ref, Vec3 c
 }
 
 LightTree::Choice LightTree::choose(Vec3 const& ref, Vec3 const& normal, double u) const {
+    FeatureScope const scope(Feature::LightChoice);
     float probability = 1;
     if (!infinite_.empty()) {
         float const coarse = std::min(float(std::floor(u * 0x1p24) * 0x1p-24), kOneMinusEpsilon);
@@ -71,6 +74,7 @@ LightTree::Choice LightTree::choose(Vec3 const& ref, Vec3 const& normal, double 
 }
 
 float LightTree::probability(Vec3 const& ref, Vec3 const& normal, uint32_t index) const {
+    FeatureScope const scope(Feature::LightChoice);
     if (index >= places_.size() || places_[index].entry == kNone) return 0;
     Place const& place = places_[index];
     float probability = infinite_.empty() ? 1.f : top_.probability(place.entry);

@@ -1,5 +1,6 @@
 #include "shading/graph.h"
 
+#include "base/feature.h"
 #include "shading/node_functions.h"
 
 namespace weft::shading {
@@ -14,6 +15,7 @@ void evaluate(Program const& program, SurfacePoint const& point, Values& values)
 
 Vec3 evaluate(Program const& program, SurfacePoint const& point) {
     if (program.result.reg < 0) return program.result.value;
+    FeatureScope const scope(Feature::Shading);
     Values values;
     evaluate(program, point, values);
     return values[size_t(program.result.reg)];

@@ -2,6 +2,8 @@
 
 #include <bit>
 
+#include "base/feature.h"
+
 namespace weft::shading {
 
 namespace {
@@ -125,6 +127,7 @@ float ImageLookup::level_of(UvFootprint const& f) const {
 }
 
 Color ImageLookup::at(Vec2 uv, UvFootprint const& footprint) const {
+    FeatureScope const scope(Feature::Textures);
     if (filter == scene::TextureFilter::nearest) return exposure * nearest(*this, uv);
     return image->is_in_memory() ? filtered<false>(*this, uv, footprint)
                                  : filtered<true>(*this, uv, footprint);

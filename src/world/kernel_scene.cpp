@@ -1,6 +1,7 @@
 // The half of WorldBuilder that talks to Embree.
 #include <stdexcept>
 
+#include "base/feature.h"
 #include "base/hash.h"
 #include "world/edge_hits.h"
 #include "world/world_builder.h"
@@ -239,6 +240,9 @@ Hit World::intersect_passable(Ray const& ray, uint32_t alpha_seed) const {
 }
 
 Hit World::closest(Ray const& ray, Target target, uint32_t alpha_seed) const {
+    // Passable boundaries are asked for by shadow rays alone.
+    FeatureScope const scope(target == Target::Passable ? Feature::ShadowRays
+                                                        : Feature::ClosestHits);
     if (recorder_) [[unlikely]]
         recorder_->record(ray, false);
     FilterContext context;
@@ -264,6 +268,7 @@ Hit World::closest(Ray const& ray, Target target, uint32_t alpha_seed) const {
 }
 
 Color World::visibility(Ray const& ray, bool secondary) const {
+    FeatureScope const scope(Feature::ShadowRays);
     if (recorder_) [[unlikely]]
         recorder_->record(ray, true);
     FilterContext context;

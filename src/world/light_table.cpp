@@ -165,6 +165,7 @@ LightTable::Found LightTable::found_at(lights::SunDisk const& l, Vec3 const&, Ve
 
 LightSample LightTable::sample_chosen(lights::LightTree::Choice const& choice, Vec3 const& ref,
                                       Vec2 u) const {
+    FeatureScope const scope(Feature::LightSampling);
     uint32_t const light = light_of_leaf_.empty() ? choice.index : light_of_leaf_[choice.index];
     LightSample sample = match(lights_[light].kind, [&](auto const& l) {
         return sample_light(l, ref, u, choice.index - first_leaf_[light]);
@@ -175,6 +176,7 @@ LightSample LightTable::sample_chosen(lights::LightTree::Choice const& choice, V
 }
 
 float LightTable::pdf(int32_t light, LitPoint const& at, shading::SurfacePoint const& point) const {
+    FeatureScope const scope(Feature::LightSampling);
     auto const& area = std::get<AreaLight>(lights_[size_t(light)].kind);
     return match(area.emitter, [&](auto const& e) {
         uint32_t const part = e.primitives() > 1 ? point.primitive : 0;

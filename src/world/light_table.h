@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/feature.h"
 #include "base/hash.h"
 #include "base/match.h"
 #include "lights/delta_lights.h"
@@ -131,6 +132,7 @@ class LightTable {
     /// with the density with which `sample` gives that direction: calls f(light, radiance, pdf).
     template <class F>
     void environment(LitPoint const& at, Vec3 const& d, F&& f) const {
+        FeatureScope const scope(Feature::LightSampling);
         for (int32_t i : environments_) {
             Found const found = match(lights_[size_t(i)].kind,
                                       [&](auto const& light) { return found_at(light, at.p, d); });
@@ -147,6 +149,7 @@ class LightTable {
     template <class F>
     void lamps(Ray const& ray, LitPoint const& at, F&& f) const {
         if (!lamps_) return;
+        FeatureScope const scope(Feature::LightSampling);
         lamps_->each(ray, at.p, [&](LampScene::Meeting const& met) {
             auto const& lamp = std::get<Lamp>(lights_[size_t(met.light)].kind);
             Vec3 const p = ray.origin + ray.direction * met.t;

@@ -1,4 +1,5 @@
 // From the kernel's answer to a surface point.
+#include "base/feature.h"
 #include "world/world.h"
 
 namespace weft::world {
@@ -34,6 +35,7 @@ shading::SurfacePoint World::surface(Ray const& ray, Hit const& hit) const {
 
 shading::SurfacePoint World::point_on(Hit const& hit, Vec3 const& local, Vec3 const& wo,
                                       RayCone const& cone) const {
+    FeatureScope const scope(Feature::Surfaces);
     Object const& object = objects_[hit.object];
     shading::SurfacePoint point;
     point.t = hit.t;
@@ -203,6 +205,7 @@ Color World::transmittance(Hit const& hit, Vec3 const& ng, Vec3 const& direction
     Object const& o = objects_[hit.object];
     float const there = o.has_alpha ? opacity(hit, ng, direction) : 1;
     if (!o.is_see_through || there == 0) return Color(1 - there);
+    FeatureScope const scope(Feature::Shading);
     shading::SurfacePoint const point = filtered_point(hit, ng, direction);
     return Color(1 - there) +
            there * materials_.straight(o.material, point, view_of(point, point.wo, 1, secondary));
@@ -229,6 +232,7 @@ shading::View World::view_of(shading::SurfacePoint const& point, Vec3 const& wo,
 shading::Shading World::shade(shading::SurfacePoint const& point, Vec3 const& wo,
                               media::MediumStack const& stack, bool secondary,
                               float least_roughness) const {
+    FeatureScope const scope(Feature::Shading);
     Object const& o = objects_[point.object];
     shading::View view =
         view_of(point, wo, o.has_interior ? stack.current_without(point.object).ior : 1, secondary);
