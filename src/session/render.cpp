@@ -58,6 +58,7 @@ class TileRenderer {
   private:
     void add(Vec2i pixel, uint32_t s, film::SampleRecord* record) {
         Color const c = renderer_.sample(pixel, s, record);
+        FeatureScope const scope(Feature::Film);
         bool const good = is_good(c) && (!record || record->finish());
         if (!good) [[unlikely]]
             report({pixel, s, c}, record);
@@ -318,10 +319,14 @@ RenderResult render(world::World const& world, io::RenderJob const& job,
         return options.cancel && options.cancel->load(std::memory_order_relaxed);
     };
     uint32_t samples_done = result.film.least_samples();
+    std::optional<Profiler> profiler;
+    if (options.profile) profiler.emplace();
+    Profiler* const watched = profiler ? &*profiler : nullptr;
     auto const render_pass = [&] {
         tbb::parallel_for(
             tbb::blocked_range<size_t>(0, regions.size(), 1),
             [&](auto const& range) {
+                Profiler::Work const work(watched);
                 for (size_t i = range.begin(); i != range.end() && !cancelled(); ++i)
                     meter.add(tiles.render(regions[i], [&] { return !cancelled(); }), samples_done);
             },
@@ -345,10 +350,16 @@ RenderResult render(world::World const& world, io::RenderJob const& job,
     arena.execute([&] {
         while (!done && !cancelled()) {
             render_pass();
+            Profiler::Work const work(watched);
+            FeatureScope const scope(Feature::Film);
             done = !cancelled() && !passes.go_on();
         }
     });
     watching.reset();
+    if (profiler) {
+        result.profile = profiler->profile();
+        result.profile.thread_seconds = threads * meter.seconds();
+    }
     result.cancelled = !done && !(meter.done() == expected_samples(options, result, regions));
     if (result.cancelled) result.stopped_by = StoppedBy::user;
     result.image = result.film.mean();

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "base/profiler.h"
 #include "film/film.h"
 #include "image/image.h"
 #include "io/scene_file.h"
@@ -62,7 +63,8 @@ struct RenderOptions {
     RenderState const* resume = nullptr; ///< goes on from here; its identity and part are the same
     std::vector<Watcher> watchers;
     std::function<void(Progress const&)>
-        on_progress; ///< called a few times a second, by one thread at a time
+        on_progress;      ///< called a few times a second, by one thread at a time
+    bool profile = false; ///< tell processor time by feature
     std::atomic<bool> const* cancel = nullptr; ///< set to stop within a row of a tile
 };
 
@@ -90,6 +92,7 @@ struct RenderResult {
     bool cancelled = false;
     StoppedBy stopped_by = StoppedBy::samples;
     std::optional<double> noise; ///< reached, where it was asked for
+    Profile profile;             ///< of this render's passes, where it was asked for
     uint64_t bad_samples = 0;
     std::vector<BadSample> first_bad_samples; ///< in pixel order, at most 4
 };

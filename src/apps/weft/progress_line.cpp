@@ -58,24 +58,31 @@ double memory_peak() {
     return getrusage(RUSAGE_SELF, &usage) == 0 ? double(usage.ru_maxrss) * 1024 : 0;
 }
 
-void ProgressLine::print_profile() const {
+PhaseTimes ProgressLine::phase_times() const {
     auto const seconds = [](Clock::duration d) { return std::chrono::duration<double>(d).count(); };
     Clock::time_point const now = Clock::now();
-    double const all = seconds(now - start_);
-    std::vector<std::pair<std::string, double>> sums; // several pictures have each phase again
+    PhaseTimes times;
+    times.all = seconds(now - start_);
     for (size_t i = 0; i < phases_.size(); ++i) {
         auto const& [name, begin] = phases_[i];
         double const took = seconds((i + 1 < phases_.size() ? phases_[i + 1].second : now) - begin);
-        auto const same = std::find_if(sums.begin(), sums.end(),
-                                       [&](auto const& s) { return s.first == phases_[i].first; });
-        if (same == sums.end())
-            sums.emplace_back(name, took);
+        auto const same = std::find_if(times.phases.begin(), times.phases.end(),
+                                       [&](auto const& p) { return p.first == phases_[i].first; });
+        if (same == times.phases.end())
+            times.phases.emplace_back(name, took);
         else
             same->second += took;
     }
-    for (auto const& [name, took] : sums)
-        fmt::print(stderr, "{:<8}{:>10}{:>8.1f} %\n", name, duration_text(took), 100 * took / all);
-    fmt::print(stderr, "{:<8}{:>10}\n", "total", duration_text(all));
+    return times;
+}
+
+void ProgressLine::print_profile() const {
+    if (style_ == ProgressStyle::Json)
+        fmt::print(stderr, "{{\"phase\":\"profile\",\"percent\":100,\"memory\":{:.0f},{}}}\n",
+                   memory_now(), profile_json(phase_times(), profile_));
+    else
+        fmt::print(stderr, "{}", profile_text(phase_times(), profile_));
+    std::fflush(stderr);
 }
 
 void ProgressLine::phase(char const* name) {

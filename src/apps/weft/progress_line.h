@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/weft/profile_report.h"
 #include "session/render.h"
 
 namespace weft::apps {
@@ -22,7 +23,9 @@ class ProgressLine {
     explicit ProgressLine(ProgressStyle style) : style_(style) {}
     /// Says to programs that a phase begins: read, commit, render, write.
     void phase(char const* name);
-    /// How long each phase took, to stderr.
+    /// What a render that is done spent its time on; `print_profile` tells of all together.
+    void add_profile(Profile const& profile) { profile_ += profile; }
+    /// How long each phase took, and where the render's time went, to stderr.
     void print_profile() const;
     /// Says to programs what was reached; the last line.
     void done(session::RenderResult const& result) const;
@@ -33,9 +36,12 @@ class ProgressLine {
   private:
     using Clock = std::chrono::steady_clock;
 
+    PhaseTimes phase_times() const;
+
     ProgressStyle style_;
     Clock::time_point start_ = Clock::now();
     std::vector<std::pair<std::string, Clock::time_point>> phases_; ///< and when each began
+    Profile profile_;
     double due_ = 2; ///< seconds since the start, of the next plain line
 };
 

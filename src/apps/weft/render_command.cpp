@@ -99,6 +99,7 @@ int run(RenderArguments& a) {
     a.options.part = parse_part(a.shard, a.samples);
     a.options.version = WEFT_VERSION;
     a.options.kernel = a.isa;
+    a.options.profile = a.profile;
     if (!a.time.empty()) a.options.seconds = parse_duration(a.time, "--time");
     if (a.preview) {
         if (a.size.empty()) a.size = "50%";
@@ -110,9 +111,9 @@ int run(RenderArguments& a) {
     io::SceneFile const file =
         io::read_scene_file(a.scene, a.overrides, make_texture_cache(a.textures));
     for (std::string const& warning : file.warnings) fmt::print(stderr, "warning: {}\n", warning);
-    if (int const code = run_file(a, file, progress); code != kDone) return code;
+    int const code = run_file(a, file, progress);
     if (a.profile) progress.print_profile();
-    return kDone;
+    return code;
 }
 
 } // namespace
@@ -179,7 +180,9 @@ void add_render_command(CLI::App& app, Command& chosen) {
         ->type_name("PNG");
     c->add_option("--tev", a->tev, "Show the picture so far in the viewer tev, every second")
         ->type_name("HOST:PORT");
-    c->add_flag("--profile", a->profile, "Say at the end where the time went, by phase");
+    c->add_flag("--profile", a->profile,
+                "Say at the end where the time went: by phase and, while rendering, by feature "
+                "(textures, shadow rays, ...)");
     add_texture_options(*c, a->textures);
     add_display_options(*c, a->display);
     c->callback([a, &chosen] { chosen = [a] { return run(*a); }; });

@@ -240,6 +240,7 @@ int render_job(RenderArguments const& a, io::RenderJob const& job, bool only_pic
     progress.phase("render");
     session::RenderResult result = session::render(*world, job, options);
     if (result.cancelled) progress.stop();
+    progress.add_profile(result.profile);
     if (tev) tev->show(result.film);
     if (watched) watched->show(result.image);
     if (std::string const failure = textures.failure(); !failure.empty())

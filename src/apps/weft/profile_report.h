@@ -1,0 +1,25 @@
+// What `weft render --profile` says: how long each phase took, and what the processors did while
+// rendering.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/profiler.h"
+
+namespace weft::apps {
+
+struct PhaseTimes {
+    std::vector<std::pair<std::string, double>> phases; ///< seconds, in the order of their begins
+    double all = 0;                                     ///< seconds since the start
+};
+
+/// A table of the phases; under the render, one of the features that took any time, the longest
+/// first, in processor time of all threads together.
+std::string profile_text(PhaseTimes const& times, Profile const& profile);
+
+/// The same as the members of a JSON object, without its braces; all features.
+std::string profile_json(PhaseTimes const& times, Profile const& profile);
+
+} // namespace weft::apps
