@@ -20,7 +20,7 @@
 namespace weft {
 
 enum class Feature : uint8_t {
-    Integration,   ///< everything else along a path
+    Integration,   ///< everything else along a path, random numbers among it
     ClosestHits,   ///< camera and bounce rays through the scene
     ShadowRays,    ///< whether light gets to a point
     Surfaces,      ///< from hits to points: normals, uvs, tangents
@@ -30,7 +30,6 @@ enum class Feature : uint8_t {
     LightChoice,   ///< which light, and how likely it was
     LightSampling, ///< points on lights, their radiance and density; also of those that rays find
     Media,         ///< free flight, transmittance, scattering in media
-    Sampler,       ///< random numbers
     Camera,        ///< pixel filter and camera rays
     Film,          ///< sums of pixels, AOVs, estimates of noise
 };

@@ -36,9 +36,8 @@ class ThreadClock {
 };
 
 constexpr std::array<std::string_view, kFeatures> kNames{
-    "integration", "closest hits", "shadow rays",  "surface points", "shading",
-    "textures",    "bsdf",         "light choice", "light sampling", "media",
-    "sampler",     "camera",       "film"};
+    "integration", "closest hits", "shadow rays",    "surface points", "shading", "textures",
+    "bsdf",        "light choice", "light sampling", "media",          "camera",  "film"};
 
 } // namespace
 

@@ -41,7 +41,6 @@ LightTree::Four LightTree::importances(Node const& node, Vec3 const& ref, Vec3 c
 }
 
 LightTree::Choice LightTree::choose(Vec3 const& ref, Vec3 const& normal, double u) const {
-    FeatureScope const scope(Feature::LightChoice);
     float probability = 1;
     if (!infinite_.empty()) {
         float const coarse = std::min(float(std::floor(u * 0x1p24) * 0x1p-24), kOneMinusEpsilon);
@@ -53,6 +52,9 @@ LightTree::Choice LightTree::choose(Vec3 const& ref, Vec3 const& normal, double 
     } else if (root_ == kNone) {
         return {};
     }
+    // A single light is no choice.
+    if (root_ & kLeaf) return {root_ & ~kLeaf, probability, std::min(float(u), kOneMinusEpsilon)};
+    FeatureScope const scope(Feature::LightChoice);
     uint32_t at = root_;
     while (!(at & kLeaf)) {
         Node const& node = nodes_[at];
@@ -74,11 +76,12 @@ LightTree::Choice LightTree::choose(Vec3 const& ref, Vec3 const& normal, double 
 }
 
 float LightTree::probability(Vec3 const& ref, Vec3 const& normal, uint32_t index) const {
-    FeatureScope const scope(Feature::LightChoice);
     if (index >= places_.size() || places_[index].entry == kNone) return 0;
     Place const& place = places_[index];
     float probability = infinite_.empty() ? 1.f : top_.probability(place.entry);
     if (place.entry >= first_infinite_) return probability;
+    if (root_ & kLeaf) return probability;
+    FeatureScope const scope(Feature::LightChoice);
     uint64_t trail = place.trail;
     for (uint32_t at = root_; !(at & kLeaf); trail >>= 2) {
         Node const& node = nodes_[at];

@@ -18,7 +18,6 @@
 #include <cassert>
 #include <cstdint>
 
-#include "base/feature.h"
 #include "base/hash.h"
 #include "base/vec.h"
 #include "sampling/halton.h"
@@ -105,7 +104,6 @@ class SampleStream {
           sample_(sample), reversed_sample_(reverse_bits(sample)), kind_(kind) {}
 
     float get1(Dimension d, uint32_t vertex = 0) const {
-        FeatureScope const scope(Feature::Sampler);
         uint64_t const h = key(d, vertex);
         if (kind_ != SamplerKind::Sobol) return other(d, vertex, 0, h);
         uint32_t const index = shuffled_index(h);
@@ -113,7 +111,6 @@ class SampleStream {
     }
 
     Vec2 get2(Dimension d, uint32_t vertex = 0) const {
-        FeatureScope const scope(Feature::Sampler);
         assert(components(d) >= 2);
         uint64_t const h = key(d, vertex);
         if (kind_ != SamplerKind::Sobol) return {other(d, vertex, 0, h), other(d, vertex, 1, h)};
@@ -121,7 +118,6 @@ class SampleStream {
     }
 
     Vec3 get3(Dimension d, uint32_t vertex = 0) const {
-        FeatureScope const scope(Feature::Sampler);
         assert(components(d) >= 3);
         uint64_t const h = key(d, vertex);
         if (kind_ != SamplerKind::Sobol)

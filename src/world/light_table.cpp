@@ -176,7 +176,6 @@ LightSample LightTable::sample_chosen(lights::LightTree::Choice const& choice, V
 }
 
 float LightTable::pdf(int32_t light, LitPoint const& at, shading::SurfacePoint const& point) const {
-    FeatureScope const scope(Feature::LightSampling);
     auto const& area = std::get<AreaLight>(lights_[size_t(light)].kind);
     return match(area.emitter, [&](auto const& e) {
         uint32_t const part = e.primitives() > 1 ? point.primitive : 0;
