@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <numeric>
 #include <unistd.h>
 
 #include "session/render.h"
@@ -52,6 +53,26 @@ TEST(Render, IsTheSameHoweverItIsCutUp) {
                 EXPECT_EQ(other.pixel_samples, 75.0 * 50 * one.samples);
             }
     }
+}
+
+TEST(Render, AProfileChangesNothingAndAddsUp) {
+    TestScene const scene = scene_with();
+    RenderOptions options;
+    options.threads = 2;
+    options.spp = 64;
+    RenderResult const plain = render_with(scene, options);
+    EXPECT_EQ(plain.profile.samples, 0u);
+    options.profile = true;
+    RenderResult const profiled = render_with(scene, options);
+    EXPECT_TRUE(same_bits(plain.image.pixels, profiled.image.pixels));
+    Profile const& p = profiled.profile;
+    EXPECT_GT(p.samples, 20u);
+    EXPECT_NEAR(std::accumulate(p.seconds.begin(), p.seconds.end(), 0.0), p.processor_seconds,
+                0.05 * p.processor_seconds);
+    EXPECT_LE(p.processor_seconds, p.thread_seconds * 1.01);
+    for (Feature const f : {Feature::ClosestHits, Feature::ShadowRays, Feature::Bsdf})
+        EXPECT_GT(p.seconds[size_t(f)], 0) << feature_name(f);
+    EXPECT_EQ(p.seconds[size_t(Feature::Textures)], 0) << "there is no image";
 }
 
 TEST(Render, FilesAreTheSameBytes) {
