@@ -65,9 +65,28 @@ void add_background(world::World const& world, PathSettings const& settings, Pat
     if (sink.record()) record_background(path, seen, *sink.record());
 }
 
-/// The camera sees through a hole that an object cuts: black, with the alpha of a background.
-void hold_out(PathState const& path, film::SampleSink& sink) {
-    if (sink.record()) record_background(path, Color(0), *sink.record());
+/// The part of light that goes straight on.
+Color straight_part(lobes::Bsdf const& bsdf) {
+    Color sum;
+    for (int i = 0; i < bsdf.size(); ++i)
+        if (std::holds_alternative<lobes::Transparent>(bsdf[i].kind)) sum += bsdf[i].weight;
+    return sum;
+}
+
+/// The camera sees through a hole that an object cuts: black, with the alpha of a background. What
+/// the object itself lets straight through is no part of the hole. Whether there is any.
+bool hold_out(PathState& path, lobes::Bsdf const& bsdf, bool is_see_through,
+              film::SampleSink& sink) {
+    Color const through = is_see_through ? path.throughput * straight_part(bsdf) : Color(0);
+    path.held_out += average(path.throughput - through);
+    path.throughput = through;
+    film::SampleRecord* const record = sink.record();
+    if (!is_black(through)) {
+        if (record) record->set_alpha(1 - path.held_out);
+        return true;
+    }
+    if (record) record_background(path, Color(0), *record);
+    return false;
 }
 
 /// Free flight through the current medium up to `limit`. Whether the path scattered, at the
@@ -216,9 +235,11 @@ void trace_path(world::World const& world, PathSettings const& settings, world::
                 reach_of(settings, object)};
             bool const last = vertex == settings.depth;
             if (is_matte(settings, path, object)) {
-                if (object.holdout) return hold_out(path, sink);
-                if (sink.record() && !last)
+                if (object.holdout) {
+                    if (!hold_out(path, shading.bsdf, object.is_see_through, sink)) return;
+                } else if (sink.record() && !last) {
                     catch_shadow(world, settings, path, here, u, step, *sink.record());
+                }
                 ++crossings; // no vertex, either
                 continue_from(world, path, point, path.ray.direction, false);
                 --vertex;

@@ -31,6 +31,7 @@ struct PathState {
     Color throughput{1};
     media::MediumStack media;
     film::PathSignature signature;
+    float held_out = 0;     ///< part of what the camera sees that holdouts took
     bool scattered = false; ///< by something else than mirrors and clear glass
     bool diffused = false;  ///< by a diffuse surface or a medium
     bool caustic = false;   ///< and then by a mirror, glass or gloss last

@@ -174,7 +174,7 @@ void record_background(PathState const& path, Color const& radiance, film::Sampl
                                  .value = path.throughput});
     // Divided, so that nothing in the way is exactly 0.
     Color const& t = path.throughput;
-    if (path.signature.length() == 0) record.set_alpha(1 - (t.r + t.g + t.b) / 3);
+    if (path.signature.length() == 0) record.set_alpha(1 - (t.r + t.g + t.b) / 3 - path.held_out);
     record.set_guides(guide_weight(path) * clamp(radiance, 0, 1), Vec3(0));
 }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "session/render.h"
 #include "tests/support/scenes.h"
@@ -180,6 +181,105 @@ TEST(Holdout, CutsAHoleForTheCameraAlone) {
     }
     EXPECT_GT(holes, 20);
     EXPECT_GT(seen, 100);
+}
+
+/// Objects of a foreground and a background, each with places for attributes that one pass gives
+/// all of them.
+struct Split {
+    std::string name;
+    std::function<std::string(std::string const&)> foreground, background;
+};
+
+std::string gel(std::string const& attributes, std::string const& z) {
+    return "<instance " + attributes +
+           R"(><shape type="rectangle"/><bsdf type="transparent" transmittance="0.9,0.5,0.2"/><transform><scale value="1.2"/><translate z=")" +
+           z + R"("/></transform></instance>)";
+}
+std::string lantern(std::string const& attributes) {
+    return "<instance " + attributes +
+           R"(><shape type="sphere"/><emission type="lambertian" emission="2,1,0.5"/><transform><scale value="0.3"/><translate x="1" y="-0.5" z="-1.5"/></transform></instance>)";
+}
+
+std::vector<Split> splits() {
+    using Text = std::string const&;
+    return {
+        {"a glossy ball on a floor beside glass", [](Text a) { return ball(a); },
+         [](Text a) { return floor(a) + glass(a); }},
+        {"glass and a lantern before a ball", [](Text a) { return glass(a) + lantern(a); },
+         [](Text a) { return floor(a) + ball(a); }},
+        {"gels before and behind a half opaque ball",
+         [](Text a) { return ball("alpha=\"0.4\" " + a); },
+         [](Text a) { return floor(a) + gel(a, "-1.5") + gel(a, "1.5"); }},
+        {"a gel of the foreground between things of the background",
+         [](Text a) { return gel(a, "-1.2") + lantern(a); },
+         [](Text a) { return floor(a) + ball(a) + gel(a, "-2"); }},
+    };
+}
+
+TEST(Holdout, ForegroundAndBackgroundAddUpToThePictureInOnePass) {
+    // Each pass holds out the other's objects, which still light it, and show in its mirrors and
+    // glass. The sky is the background's.
+    std::string const how = "depth=\"6\"", hidden = "visibleToCamera=\"false\"",
+                      hold = "holdout=\"true\"";
+    auto const with_alpha = [&](std::string const& contents, uint32_t seed) {
+        Pass const pass = render_pass(kCamera + contents + lamp(), {Aov::alpha}, 16, seed, how);
+        std::vector<Color> all = colors(pass);
+        for (int i = 0; i < kSize * kSize; ++i) all.emplace_back(pass.at("A", i));
+        return all;
+    };
+    auto const added = [](std::vector<Color> a, std::vector<Color> const& b) {
+        for (size_t i = 0; i < a.size(); ++i) a[i] += b[i];
+        return a;
+    };
+    auto const part = [](std::vector<Color> const& all, int which) {
+        auto const from = all.begin() + which * kSize * kSize;
+        return std::vector<Color>(from, from + kSize * kSize);
+    };
+    std::vector<Split> const all = splits();
+    for (Split const& s : all)
+        for (int which : {0, 1}) { // colours, alpha
+            auto const whole = over_seeds(24, [&](uint32_t seed) {
+                return part(with_alpha(s.foreground("") + s.background("") + sky(), seed), which);
+            });
+            auto const sum = over_seeds(24, [&](uint32_t seed) {
+                return part(
+                    added(with_alpha(s.foreground("") + s.background(hold) + sky(hidden),
+                                     2000 + seed),
+                          with_alpha(s.foreground(hold) + s.background("") + sky(), 3000 + seed)),
+                    which);
+            });
+            expect_equal(whole, sum, 2 * int(all.size()), s.name + (which ? ", alpha" : ""));
+        }
+}
+
+TEST(CameraVisibility, ForegroundOverBackgroundIsThePictureInOnePass) {
+    // Each pass hides the other's objects from the camera alone. The edges of what is in front lie
+    // between pixels: `over` knows nothing of where in a pixel two things are.
+    std::string const camera = R"(<camera type="orthographic" width="16" height="16" scale="1"/>)",
+                      how = "depth=\"6\" filter=\"box\"", hidden = "visibleToCamera=\"false\"";
+    auto const front = [](std::string const& attributes) {
+        return "<instance alpha=\"0.6\" " + attributes +
+               R"(><shape type="rectangle"/><bsdf type="principled" metallic="0.5" roughness="0.4" baseColor="0.3,0.6,0.9"/><transform><scale value="0.5"/><rotate axis="0,1,0" angle="180"/><translate z="1"/></transform></instance>)";
+    };
+    auto const back = [](std::string const& attributes) {
+        return "<instance " + attributes +
+               R"(><shape type="rectangle"/><bsdf type="diffuse" albedo="0.8,0.5,0.3"/><transform><scale value="4"/><rotate axis="0,1,0" angle="180"/><translate z="2"/></transform></instance>)";
+    };
+    auto const whole = over_seeds(24, [&](uint32_t seed) {
+        return colors(
+            render_pass(camera + front("") + back("") + lamp() + sky(), {}, 32, seed, how));
+    });
+    auto const joined = over_seeds(24, [&](uint32_t seed) {
+        Pass const over = render_pass(camera + front("") + back(hidden) + lamp() + sky(hidden),
+                                      {Aov::alpha}, 32, 2000 + seed, how);
+        auto const under = colors(render_pass(camera + front(hidden) + back("") + lamp() + sky(),
+                                              {}, 32, 3000 + seed, how));
+        auto result = colors(over);
+        for (int i = 0; i < kSize * kSize; ++i)
+            result[size_t(i)] += (1 - over.at("A", i)) * under[size_t(i)];
+        return result;
+    });
+    expect_equal(whole, joined, 1, "over");
 }
 
 TEST(ShadowCatcher, RecombinesToThePictureInOnePass) {
