@@ -15,18 +15,43 @@ void for_pixels(film::Region const& r, Visit const& visit) {
         for (int x = r.from.x; x < r.to.x; ++x) visit(x, y);
 }
 
-/// Mean square of the relative errors of the pixels of a block.
-double mean_square_error(film::Film const& film, film::Region const& block, double darkest) {
-    double sum = 0;
+/// The squares of the relative errors of the pixels of a block.
+struct Squares {
+    double sum = 0, of_squares = 0, pixels = 0;
+
+    bool made_by_few() const { return sum * sum < kFew * pixels * of_squares; }
+};
+
+Squares squares_of(film::Film const& film, film::Region const& block, double darkest) {
+    Squares squares;
+    squares.pixels = double(block.pixels());
     for_pixels(block, [&](int x, int y) {
         film::Film::Counts const n = film.counts(x, y);
         if (n.even == 0 || n.even == n.all) return;
         Color const half = (film.even_mean(x, y) - film.odd_mean(x, y)) * 0.5f;
-        double const square = brightness(half * half);
         double const base = std::max(brightness(film.mean(x, y)), darkest);
-        if (square > 0) sum += square / (base * base);
+        double const absolute = brightness(half * half);
+        double const square = absolute > 0 ? absolute / (base * base) : 0;
+        squares.sum += square;
+        squares.of_squares += square * square;
     });
-    return sum / double(block.pixels());
+    return squares;
+}
+
+/// The mean square over the blocks at most `radius` blocks away, of those alone that few pixels
+/// make.
+double rare_mean(BlockGrid const& grid, std::vector<Squares> const& blocks, size_t middle,
+                 int radius) {
+    int const row = int(middle) / grid.columns, column = int(middle) % grid.columns;
+    double sum = 0, pixels = 0;
+    for (int r = std::max(0, row - radius); r <= std::min(grid.rows - 1, row + radius); ++r)
+        for (int c = std::max(0, column - radius); c <= std::min(grid.columns - 1, column + radius);
+             ++c) {
+            Squares const& block = blocks[size_t(r * grid.columns + c)];
+            if (block.made_by_few()) sum += block.sum;
+            pixels += block.pixels;
+        }
+    return sum / pixels;
 }
 
 } // namespace
@@ -49,8 +74,14 @@ std::vector<float> block_errors(film::Film const& film) {
     double const darkest = kDarkest * typical_brightness(film);
     BlockGrid const grid(film.region());
     std::vector<float> errors(grid.size());
+    std::vector<Squares> blocks;
     for (size_t i = 0; i < errors.size(); ++i)
-        errors[i] = float(std::sqrt(mean_square_error(film, grid.block(i), darkest)));
+        blocks.push_back(squares_of(film, grid.block(i), darkest));
+    for (size_t i = 0; i < errors.size(); ++i) {
+        double square = blocks[i].sum / blocks[i].pixels;
+        for (int radius : {1, 2, 4}) square = std::max(square, rare_mean(grid, blocks, i, radius));
+        errors[i] = float(std::sqrt(square));
+    }
     return errors;
 }
 

@@ -10,6 +10,14 @@
 // whole block alive, which the mean of the errors (Dammertz et al. 2010, "A hierarchical automatic
 // stopping condition for Monte Carlo global illumination") would smooth away.
 //
+// Where light comes by rare paths, most blocks have found none of it yet and look calm. What the
+// blocks around them have found says how often such paths are: the errors of blocks that few of
+// their pixels make are shared out evenly over windows of blocks, and a block's error is no less
+// than the share of any window around it. Few are pixels whose effective number (Kish 1965, "Survey
+// Sampling": (sum x)^2 / sum x^2, x their squares) is below kFew of the block's; normal noise has a
+// third or more. So noise of the common kind stays where it is. Light that no sample of a window
+// has found remains unknown.
+//
 // A stop that looks at the samples favours those that happen to look calm, and a calm pixel is
 // rather too dark than too bright. Three things keep that bias far below the noise: no decision
 // before kLeastSamples, none by fewer pixels than those of a block and the eight around it, and
@@ -26,6 +34,7 @@ namespace weft::session {
 inline constexpr int kBlock = 8;              ///< pixels
 inline constexpr uint32_t kLeastSamples = 32; ///< before anything is decided
 inline constexpr double kDarkest = 0.01;      ///< of the typical brightness
+inline constexpr double kFew = 0.1;           ///< of a block's pixels
 
 /// One number per block of a region, row by row from its corner.
 struct BlockGrid {
@@ -47,7 +56,8 @@ struct BlockGrid {
 /// whatever few very bright pixels there are.
 double typical_brightness(film::Film const& film);
 
-/// The estimated relative error of each block. Needs a film with half sums.
+/// The estimated relative error of each block: its own, or the share of what few pixels make in the
+/// windows of 3, 5 and 9 blocks a side around it. Needs a film with half sums.
 std::vector<float> block_errors(film::Film const& film);
 
 /// Which blocks need more samples for a relative error of `noise`: those beyond it and the eight

@@ -35,14 +35,17 @@ TEST(Blocks, ErrorIsThatOfTheMeanRelativeToIt) {
 }
 
 TEST(Blocks, NoiseWakesTheNeighbours) {
+    // Of a kind that says nothing of other blocks: all pixels of one are as noisy.
     film::Film film = film_with_halves({{5, 3}, {5 + 40, 3 + 30}});
-    for (int y = 3; y < 33; ++y)
-        for (int x = 5; x < 45; ++x)
-            for (uint32_t s = 0; s < 4; ++s)
-                film.add(x, y, s, Color(x == 30 && y == 30 && s == 0 ? 100.f : 1.f), nullptr);
     BlockGrid const grid(film.region());
     ASSERT_EQ(grid.columns, 5);
     ASSERT_EQ(grid.rows, 4);
+    for (int y = 3; y < 33; ++y)
+        for (int x = 5; x < 45; ++x)
+            for (uint32_t s = 0; s < 4; ++s)
+                film.add(x, y, s,
+                         Color(grid.index(x, y) == grid.index(30, 30) && s == 0 ? 2.f : 1.f),
+                         nullptr);
     auto const errors = block_errors(film);
     for (size_t i = 0; i < errors.size(); ++i)
         EXPECT_EQ(errors[i] > 0.05f, i == grid.index(30, 30)) << i;
@@ -52,6 +55,48 @@ TEST(Blocks, NoiseWakesTheNeighbours) {
     EXPECT_EQ(active_blocks(film, errors, 0.05, 100), expected);
     EXPECT_EQ(active_blocks(film, errors, 0.05, 4), std::vector<uint8_t>(20)) << "the limit";
     EXPECT_EQ(grid.block(19).to, Vec2i(45, 33));
+}
+
+TEST(Blocks, RarePathsCountForTheBlocksAround) {
+    // One of 8000 samples brings 400 times as much as all others, anywhere. Of blocks with 64
+    // pixels of 32 samples, three of four have found none.
+    constexpr int size = 128, n = 32;
+    constexpr double rate = 1 / 8000.0, rare = 400;
+    film::Film film = film_with_halves({{0, 0}, {size, size}});
+    Rng rng(7);
+    for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x)
+            for (uint32_t s = 0; s < n; ++s) {
+                float const common = 1 + 0.01f * (rng.next() - 0.5f);
+                bool const found = double(rng.next()) < rate;
+                film.add(x, y, s, Color(found ? float(rare) : common), nullptr);
+            }
+    // A pixel that has found one is off by half the difference of its halves.
+    double const off = (rare - 1) / n / ((rare - 1) / n + 1), expected = std::sqrt(rate * n) * off;
+    auto const errors = block_errors(film);
+    for (size_t i = 0; i < errors.size(); ++i) {
+        EXPECT_GT(errors[i], expected / 3) << i;
+        EXPECT_LT(errors[i], expected * 3) << i;
+    }
+}
+
+TEST(Blocks, CommonNoiseStaysWhereItIs) {
+    // Uniform noise left of a wall that has none.
+    film::Film film = film_with_halves({{0, 0}, {160, 80}});
+    Rng rng(7);
+    for (int y = 0; y < 80; ++y)
+        for (int x = 0; x < 160; ++x)
+            for (uint32_t s = 0; s < 32; ++s)
+                film.add(x, y, s, Color(x < 80 ? 2 * rng.next() : 1.f), nullptr);
+    BlockGrid const grid(film.region());
+    auto const errors = block_errors(film);
+    for (size_t i = 0; i < errors.size(); ++i) {
+        int const x = grid.block(i).from.x;
+        if (x < 80)
+            EXPECT_NEAR(errors[i], 1 / std::sqrt(3.0 * 32), 0.05);
+        else
+            EXPECT_EQ(errors[i], 0);
+    }
 }
 
 TEST(Blocks, BlackIsWithoutNoise) {
