@@ -146,10 +146,8 @@ void Film::write_pixel(size_t pixel, float* to) const {
             for (int c = 0; c < 3; ++c) put(lit[c] > 0 ? float(lit[3 + c] / lit[c]) : 1.f);
             continue;
         } else if (offset >= 0) {
-            int const count =
-                summed_numbers(aov) *
-                (aov == Aov::light_groups ? int(layout_.options().light_groups.size()) : 1);
-            for (int c = 0; c < count; ++c) put(float(sums(pixel)[offset + c] * scale));
+            for (int c = 0; c < layout_.summed(aov); ++c)
+                put(float(sums(pixel)[offset + c] * scale));
             continue;
         }
         if (aov == Aov::sample_count) {

@@ -14,7 +14,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "states are little-endian");
 
-constexpr std::string_view kMagic = "weft film state 1\n";
+constexpr std::string_view kMagic = "weft film state 2\n";
 
 class Writer {
   public:
@@ -91,8 +91,10 @@ void write_layout(Writer& w, Layout const& layout) {
     w.value(uint8_t(o.half_sums));
     w.value(uint8_t(o.squares));
     w.value(int32_t(o.cryptomatte_levels));
-    w.value(uint32_t(o.light_groups.size()));
-    for (std::string const& group : o.light_groups) w.text(group);
+    for (auto const* names : {&o.light_groups, &o.layers}) {
+        w.value(uint32_t(names->size()));
+        for (std::string const& name : *names) w.text(name);
+    }
 }
 
 Layout read_layout(Reader& r) {
@@ -105,8 +107,10 @@ Layout read_layout(Reader& r) {
     o.half_sums = r.value<uint8_t>() != 0;
     o.squares = r.value<uint8_t>() != 0;
     o.cryptomatte_levels = r.value<int32_t>();
-    o.light_groups.clear();
-    for (uint32_t i = r.value<uint32_t>(); i > 0; --i) o.light_groups.push_back(r.text());
+    for (auto* names : {&o.light_groups, &o.layers}) {
+        names->clear();
+        for (uint32_t i = r.value<uint32_t>(); i > 0; --i) names->push_back(r.text());
+    }
     if (o.cryptomatte_levels < 1 || o.cryptomatte_levels > 1000) fail();
     return Layout(aovs, std::move(o));
 }

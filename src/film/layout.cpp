@@ -6,7 +6,7 @@ namespace weft::film {
 
 namespace {
 
-bool is_of_light(Aov aov) { return (aov >= Aov::emission && aov <= Aov::light_groups); }
+bool is_of_light(Aov aov) { return (aov >= Aov::emission && aov <= Aov::layers); }
 
 bool is_nearest(Aov aov) { return aov == Aov::depth || aov == Aov::position || aov == Aov::uv; }
 
@@ -24,6 +24,15 @@ bool is_of_surface(Aov aov) {
 std::vector<std::string> names_of(std::string const& layer, std::string_view letters) {
     std::vector<std::string> names;
     for (char c : letters) names.push_back(layer + "." + c);
+    return names;
+}
+
+/// One picture by each name.
+std::vector<std::string> colors_of(std::string const& prefix,
+                                   std::vector<std::string> const& layers) {
+    std::vector<std::string> names;
+    for (std::string const& layer : layers)
+        for (std::string& n : names_of(prefix + layer, "RGB")) names.push_back(std::move(n));
     return names;
 }
 
@@ -62,12 +71,10 @@ std::vector<std::string> channels_of(Aov aov, LayoutOptions const& options) {
     case Aov::crypto_material:
     case Aov::crypto_asset:
         return cryptomatte_channels(cryptomatte_name(aov), options.cryptomatte_levels);
-    case Aov::light_groups: {
-        std::vector<std::string> names;
-        for (std::string const& group : options.light_groups)
-            for (std::string& n : names_of("light_" + group, "RGB")) names.push_back(std::move(n));
-        return names;
-    }
+    case Aov::light_groups:
+        return colors_of("light_", options.light_groups);
+    case Aov::layers:
+        return colors_of("layer_", options.layers);
     default:
         return names_of(layer, "RGB");
     }
@@ -102,6 +109,7 @@ Layout::Layout(std::span<Aov const> aovs, LayoutOptions options) : options_(std:
     options_.squares |= has(Aov::variance);
     // What is not asked for leaves no trace: equal layouts are layouts of equal films.
     if (!has(Aov::light_groups)) options_.light_groups = {kDefaultGroup};
+    if (!has(Aov::layers)) options_.layers = {kDefaultGroup};
     int const halves = options_.half_sums ? 2 : 1;
     first_recorded_ = 3 * halves * (options_.squares ? 2 : 1);
     sums_ = first_recorded_;
@@ -115,10 +123,16 @@ Layout::Layout(std::span<Aov const> aovs, LayoutOptions options) : options_(std:
         has_cryptomatte_ |= is_cryptomatte(aov);
         if (aov == Aov::beauty || summed_numbers(aov) == 0) continue;
         offsets_[i] = sums_;
-        sums_ += summed_numbers(aov) *
-                 (aov == Aov::light_groups ? int(options_.light_groups.size()) : 1);
+        sums_ += summed(aov);
     }
     if (!has_cryptomatte_) options_.cryptomatte_levels = LayoutOptions().cryptomatte_levels;
+}
+
+int Layout::summed(Aov aov) const {
+    size_t const pictures = aov == Aov::light_groups ? options_.light_groups.size()
+                            : aov == Aov::layers     ? options_.layers.size()
+                                                     : 1;
+    return summed_numbers(aov) * int(pictures);
 }
 
 std::vector<Aov> Layout::aovs() const {

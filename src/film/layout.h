@@ -17,14 +17,13 @@ namespace weft::film {
 using scene::Aov;
 inline constexpr size_t kAovCount = scene::kAovs.size();
 
-/// The lights whose `group` says nothing are in this one, which is always the first.
-inline constexpr char const* kDefaultGroup = "default";
+using scene::kDefaultGroup;
 
 struct LayoutOptions {
     bool half_sums = false; ///< beauty of the even samples, for error estimates
     bool squares = false;   ///< of the beauty's samples
     int cryptomatte_levels = 6;
-    std::vector<std::string> light_groups{kDefaultGroup};
+    std::vector<std::string> light_groups{kDefaultGroup}, layers{kDefaultGroup};
 
     friend bool operator==(LayoutOptions const&, LayoutOptions const&) = default;
 };
@@ -50,6 +49,8 @@ class Layout {
 
     /// The first of a summed AOV's numbers in a record; -1 where it is not there or not summed.
     int offset(Aov aov) const { return offsets_[size_t(aov)]; }
+    /// How many numbers it sums: those of each picture, where it has one per name.
+    int summed(Aov aov) const;
     int half_offset() const { return options_.half_sums ? 3 : -1; }
     /// Of the squares of all samples; those of the even ones follow, where there are half sums.
     int squares_offset() const { return options_.squares ? (options_.half_sums ? 6 : 3) : -1; }
@@ -72,7 +73,7 @@ class Layout {
     bool has_light_ = false, has_surface_ = false, has_nearest_ = false, has_cryptomatte_ = false;
 };
 
-/// How many numbers a summed AOV has, of which light groups count each; 0 where it is not summed.
+/// How many numbers a summed AOV has, or each of its pictures by name; 0 where it is not summed.
 int summed_numbers(Aov aov);
 
 /// What a Cryptomatte AOV is called in a file, "CryptoObject"; "" for any other.

@@ -7,9 +7,25 @@ namespace weft::film {
 
 void SampleRecord::clear() {
     std::fill(values_.begin(), values_.end(), 0.f);
-    shares_ = {};
+    clear_shares();
     has_surface_ = has_guides_ = false;
     alpha_ = 1;
+}
+
+void SampleRecord::clear_shares() {
+    component_shares_ = {};
+    layer_shares_.clear();
+}
+
+void SampleRecord::add_share(Component component, uint16_t layer, Color const& share) {
+    component_shares_[size_t(component)] += share;
+    if (!layout_.has(Aov::layers)) return;
+    for (LayerShare& s : layer_shares_)
+        if (s.layer == layer) {
+            s.share += share;
+            return;
+        }
+    layer_shares_.push_back({layer, share});
 }
 
 void SampleRecord::add_to(Aov aov, Color const& value, int index) {
@@ -29,11 +45,14 @@ void SampleRecord::add_light(Contribution const& c) {
     }
     uint32_t const bounces = c.bounces();
     if (bounces == 0) {
+        add_to(Aov::layers, c.value);
         add_to(c.object >= 0 ? Aov::emission : Aov::background, c.value);
         return;
     }
     int const first = int(bounces == 1 ? Aov::direct_diffuse : Aov::indirect_diffuse);
-    for (size_t i = 0; i < kComponents; ++i) add_to(Aov(first + 2 * int(i)), c.value * shares_[i]);
+    for (size_t i = 0; i < kComponents; ++i)
+        add_to(Aov(first + 2 * int(i)), c.value * component_shares_[i]);
+    for (LayerShare const& s : layer_shares_) add_to(Aov::layers, c.value * s.share, s.layer);
 }
 
 void SampleRecord::set_guides(Color const& albedo, Vec3 const& normal) {

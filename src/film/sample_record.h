@@ -3,8 +3,9 @@
 //
 // Light is told apart by its path's first bounce, and a bounce may be shared: where light sampling
 // connects a surface to a light, or a path goes on to where several lobes could have sent it, each
-// kind of lobe has its share of the value (as Cycles does). The share is set once per bounce, so
-// that light sampling and scattering agree on the components' means as they do on the beauty's.
+// kind of lobe has its share of the value (as Cycles does), and so has each layer of the material.
+// The shares are set once per bounce, so that light sampling and scattering agree on the
+// components' means as they do on the beauty's.
 #pragma once
 
 #include <array>
@@ -24,15 +25,13 @@ namespace weft::film {
 enum class Component : uint8_t { Diffuse, Specular, Transmission, Volume, Subsurface };
 inline constexpr size_t kComponents = 5;
 
-/// The share of each component in a bounce, per channel: they add up to 1.
-using ComponentShares = std::array<Color, kComponents>;
-
 /// The three Cryptomattes, in the order of Aov::crypto_object and so on.
 inline constexpr size_t kCryptomattes = 3;
 
-/// What the things of a scene are called: light groups and Cryptomatte ids, by the indices that
-/// contributions and surfaces carry.
+/// What the things of a scene are called: light groups, layers and Cryptomatte ids, by the indices
+/// that contributions, lobes and surfaces carry.
 struct SceneTags {
+    std::vector<std::string> layers{kDefaultGroup};
     std::vector<std::string> light_groups{kDefaultGroup};
     std::vector<uint16_t> group_of_light, group_of_object;
 
@@ -56,7 +55,9 @@ class SampleRecord {
   public:
     /// Both outlive the record.
     SampleRecord(Layout const& layout, SceneTags const& tags)
-        : layout_(layout), tags_(tags), values_(size_t(layout.sums() - layout.first_recorded())) {}
+        : layout_(layout), tags_(tags), values_(size_t(layout.sums() - layout.first_recorded())) {
+        layer_shares_.reserve(layout.options().layers.size());
+    }
 
     /// Forgets the last sample.
     void clear();
@@ -77,8 +78,10 @@ class SampleRecord {
         add_to(Aov::shadow_catcher, lit);
         add_to(Aov::shadow_catcher, shadowed, 1);
     }
-    /// Before what comes over the path's first bounce is added.
-    void set_shares(ComponentShares const& shares) { shares_ = shares; }
+    /// Before what comes over the path's first bounce is added: what takes part in the bounce, each
+    /// with its share, per channel. All add up to 1.
+    void clear_shares();
+    void add_share(Component component, uint16_t layer, Color const& share);
     /// Each takes the place of what was said before.
     void set_surface(FirstSurface const& surface) {
         surface_ = surface;
@@ -117,7 +120,12 @@ class SampleRecord {
     Layout const& layout_;
     SceneTags const& tags_;
     std::vector<float> values_;
-    ComponentShares shares_{};
+    struct LayerShare {
+        uint16_t layer;
+        Color share;
+    };
+    std::array<Color, kComponents> component_shares_{};
+    std::vector<LayerShare> layer_shares_; ///< one for each layer
     FirstSurface surface_;
     Color guide_albedo_;
     Vec3 guide_normal_{0, 0, 0};

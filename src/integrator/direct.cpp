@@ -121,13 +121,14 @@ void add(PathSettings const& settings, PathState const& path, Connection const& 
             sink);
     };
     film::SampleRecord* const record = c.point.bsdf ? sink.record() : nullptr;
+    Vec3 const &wo = c.point.wo, &wi = c.light.wi;
     if (!c.point.bsdf || !settings.by_part) {
-        if (record) record_connection(path, *c.point.bsdf, c.point.wo, c.light.wi, *record);
+        if (record) record_connection(path, *c.point.bsdf, wo, wi, *record);
         return add_value(scattered[0]);
     }
     for (size_t i = 0; i < scattered.size(); ++i) {
         if (is_black(scattered[i])) continue;
-        if (record) record_connection(path, lobes::kParts[i], c.through, *record);
+        if (record) record_connection(path, *c.point.bsdf, wo, wi, lobes::kParts[i], *record);
         add_value(scattered[i]);
     }
 }

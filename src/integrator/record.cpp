@@ -42,25 +42,53 @@ Component component(LobeFlags flags, bool reflects) {
     return any(flags, LobeFlags::Diffuse) ? Component::Diffuse : Component::Specular;
 }
 
-film::ComponentShares all_of(Component c) {
-    film::ComponentShares shares{};
-    shares[size_t(c)] = Color(1);
-    return shares;
+void share_all(Component component, uint16_t layer, film::SampleRecord& record) {
+    record.clear_shares();
+    record.add_share(component, layer, Color(1));
 }
 
-/// The shares of what the smooth lobes send from wi to wo.
-film::ComponentShares shares_of(lobes::Bsdf const& bsdf, Vec3 const& wo, Vec3 const& wi) {
-    film::ComponentShares shares{};
+LobeFlags flags_of(lobes::Lobe const& lobe) {
+    return match(lobe.kind, [](auto const& l) { return l.flags(); });
+}
+
+/// Shares out what the smooth lobes for which `takes_part(lobe)` send from wi to wo.
+template <class TakesPart>
+void share_by_lobe(lobes::Bsdf const& bsdf, Vec3 const& wo, Vec3 const& wi,
+                   TakesPart const& takes_part, film::SampleRecord& record) {
+    struct {
+        lobes::Lobe const* lobe;
+        Color value;
+    } parts[lobes::Bsdf::capacity];
+    int count = 0;
     Color total;
-    bool const reflects = bsdf.reflects(wi);
     bsdf.for_each_value(wo, wi, [&](lobes::Lobe const& lobe, Color const& value) {
-        auto const flags = match(lobe.kind, [](auto const& l) { return l.flags(); });
-        shares[size_t(component(flags, reflects))] += value;
+        if (!takes_part(lobe)) return;
+        parts[count].lobe = &lobe;
+        parts[count++].value = value;
         total += value;
     });
-    auto const part = [](float of, float all) { return all > 0 ? of / all : 0; };
-    for (Color& s : shares) s = {part(s.r, total.r), part(s.g, total.g), part(s.b, total.b)};
-    return shares;
+    record.clear_shares();
+    bool const reflects = bsdf.reflects(wi);
+    auto const share = [](float of, float all) { return all > 0 ? of / all : 0; };
+    for (int i = 0; i < count; ++i) {
+        auto const& [lobe, v] = parts[i];
+        record.add_share(component(flags_of(*lobe), reflects), lobe->layer,
+                         {share(v.r, total.r), share(v.g, total.g), share(v.b, total.b)});
+    }
+}
+
+void share_by_lobe(lobes::Bsdf const& bsdf, Vec3 const& wo, Vec3 const& wi,
+                   film::SampleRecord& record) {
+    share_by_lobe(
+        bsdf, wo, wi, [](lobes::Lobe const&) { return true; }, record);
+}
+
+/// Of the lobes of one part: Bsdf::eval_part.
+void share_by_lobe(lobes::Bsdf const& bsdf, Vec3 const& wo, Vec3 const& wi, LobeFlags part,
+                   film::SampleRecord& record) {
+    share_by_lobe(
+        bsdf, wo, wi, [&](lobes::Lobe const& lobe) { return lobes::in_part(flags_of(lobe), part); },
+        record);
 }
 
 /// The part of what is seen towards `wi` that comes by way of mirrors.
@@ -135,11 +163,15 @@ void record_bounce(PathSettings const& settings, PathState const& path, lobes::B
         if (first) record.forget_surface();
         return;
     }
-    if (first && record.layout().has_light())
-        record.set_shares(
-            delta || settings.by_part
-                ? all_of(component(sample.flags, any(sample.flags, LobeFlags::Reflection)))
-                : shares_of(bsdf, wo, sample.wi));
+    if (first && record.layout().has_light()) {
+        if (delta)
+            share_all(component(sample.flags, any(sample.flags, LobeFlags::Reflection)),
+                      sample.layer, record);
+        else if (settings.by_part)
+            share_by_lobe(bsdf, wo, sample.wi, sample.flags, record);
+        else
+            share_by_lobe(bsdf, wo, sample.wi, record);
+    }
     if (record.layout().has_surface() && !record.has_guides() && !delta &&
         mirror_part(bsdf, wo, sample.wi) < 0.5f)
         record.set_guides(guide_weight(path) * bsdf.albedo(wo), mean_normal(bsdf));
@@ -149,13 +181,13 @@ void record_connection(PathState const& path, lobes::Bsdf const& bsdf, Vec3 cons
                        Vec3 const& wi, film::SampleRecord& record) {
     FeatureScope const scope(Feature::Film);
     if (path.signature.length() == 0 && record.layout().has_light())
-        record.set_shares(shares_of(bsdf, wo, wi));
+        share_by_lobe(bsdf, wo, wi, record);
 }
 
-void record_connection(PathState const& path, LobeFlags part, bool through,
-                       film::SampleRecord& record) {
+void record_connection(PathState const& path, lobes::Bsdf const& bsdf, Vec3 const& wo,
+                       Vec3 const& wi, LobeFlags part, film::SampleRecord& record) {
     if (path.signature.length() == 0 && record.layout().has_light())
-        record.set_shares(all_of(component(part, !through)));
+        share_by_lobe(bsdf, wo, wi, part, record);
 }
 
 void record_volume(PathState const& path, film::SampleRecord& record) {
@@ -163,7 +195,7 @@ void record_volume(PathState const& path, film::SampleRecord& record) {
         record.log()->push_back({.kind = film::PathEvent::Kind::Medium,
                                  .p = path.ray.origin,
                                  .value = path.throughput});
-    if (path.signature.length() == 1) record.set_shares(all_of(Component::Volume));
+    if (path.signature.length() == 1) share_all(Component::Volume, 0, record);
     record.set_guides(guide_weight(path), Vec3(0));
 }
 

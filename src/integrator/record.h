@@ -21,9 +21,9 @@ void record_bounce(PathSettings const& settings, PathState const& path, lobes::B
 /// Light sampling connects the surface that the path is at to a light towards `wi`.
 void record_connection(PathState const& path, lobes::Bsdf const& bsdf, Vec3 const& wo,
                        Vec3 const& wi, film::SampleRecord& record);
-/// The same where only the lobes of one part do (Bsdf::eval_part), to the other side or not.
-void record_connection(PathState const& path, lobes::LobeFlags part, bool through,
-                       film::SampleRecord& record);
+/// The same where only the lobes of one part do (Bsdf::eval_part).
+void record_connection(PathState const& path, lobes::Bsdf const& bsdf, Vec3 const& wo,
+                       Vec3 const& wi, lobes::LobeFlags part, film::SampleRecord& record);
 
 /// The path scattered in a medium.
 void record_volume(PathState const& path, film::SampleRecord& record);

@@ -74,16 +74,16 @@ auto read_at(SourceLocation const& where, Read const& read) {
     }
 }
 
-/// The name of a light group, which becomes a part of channels' names.
-void check_group(std::string const& group, XmlElement const& element) {
+/// The name of a light group or a layer, which becomes a part of channels' names.
+void check_name(std::string const& attribute, std::string const& name, XmlElement const& element) {
     auto const fits = [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
                c == '_' || c == '-';
     };
-    if (!std::all_of(group.begin(), group.end(), fits))
-        throw InputError(location_of(element, "group"),
-                         "'group' of " + element_title(element) +
-                             " expects letters, digits, _ and -, found " + in_quotes(group));
+    if (!std::all_of(name.begin(), name.end(), fits))
+        throw InputError(location_of(element, attribute),
+                         in_quotes(attribute) + " of " + element_title(element) +
+                             " expects letters, digits, _ and -, found " + in_quotes(name));
 }
 
 void check_direction(Vec3 const& direction, XmlElement const& element,
@@ -190,7 +190,7 @@ int32_t SceneBuilder::add(scene::InstanceKind, XmlElement const& e) {
 
 int32_t SceneBuilder::add(scene::LightKind, XmlElement const& e) {
     scene::Light light = read_variant<scene::Light>(e);
-    match(light, [&](auto const& l) { check_group(l.controls.group, e); });
+    match(light, [&](auto const& l) { check_name("group", l.controls.group, e); });
     scene_.light_locations.push_back(e.where);
     return append(scene_.lights, std::move(light));
 }
@@ -269,9 +269,11 @@ void SceneBuilder::check_part(scene::MaterialId part, XmlElement const& element)
 
 void SceneBuilder::complete(scene::Layer& layer, XmlElement const& element) {
     check_part(layer.bsdf, element);
+    check_name("label", layer.label, element);
 }
 void SceneBuilder::complete(scene::Coat& material, XmlElement const& element) {
     check_part(material.bsdf, element);
+    check_name("label", material.label, element);
 }
 void SceneBuilder::complete(scene::Layered& material, XmlElement const& element) {
     if (material.layers.empty())
@@ -284,6 +286,8 @@ void SceneBuilder::complete(scene::Mix& material, XmlElement const& element) {
                                             " expects two child tags <bsdf>, found " +
                                             std::to_string(material.bsdfs.size()));
     for (scene::MaterialId part : material.bsdfs) check_part(part, element);
+    check_name("label0", material.label0, element);
+    check_name("label1", material.label1, element);
 }
 void SceneBuilder::complete(scene::Secondary& material, XmlElement const& element) {
     if (material.bsdfs.size() != 2)
@@ -294,7 +298,7 @@ void SceneBuilder::complete(scene::Secondary& material, XmlElement const& elemen
 }
 
 void SceneBuilder::complete(scene::Instance& instance, XmlElement const& element) {
-    check_group(instance.group, element);
+    check_name("group", instance.group, element);
     if (!instance.normal) return;
     auto const type = texture_type(instance.normal);
     if (type != scene::ValueType::color && type != scene::ValueType::vector3)

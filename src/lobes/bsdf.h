@@ -48,9 +48,10 @@ using LobeVariant =
                  Transparent, Sheen, DisneySheen, Clearcoat, Hair, SubsurfaceDiffuse>;
 
 struct Lobe {
-    Color weight;      ///< multiplies the kind's value
-    float pick = 1;    ///< probability that `Bsdf::sample` picks it
-    uint8_t frame = 0; ///< index of the frame it lies around
+    Color weight;       ///< multiplies the kind's value
+    float pick = 1;     ///< probability that `Bsdf::sample` picks it
+    uint8_t frame = 0;  ///< index of the frame it lies around
+    uint16_t layer = 0; ///< of the material, for pictures by layer; 0: of none that has a name
     LobeVariant kind;
 };
 
@@ -60,12 +61,18 @@ struct BsdfSample {
     float pdf = 0;       ///< per solid angle, or a probability for Delta; 0 means failure
     LobeFlags flags{};   ///< the side of wi and the kind of the lobe picked
     float eta_scale = 1; ///< eta^2 of the lobe picked if it transmitted, else 1
+    uint16_t layer = 0;  ///< of the lobe picked
 };
 
 /// The parts of a BSDF that light controls tell apart, and the flags that all lobes of a part have,
 /// and none of another.
 inline constexpr std::array kParts{LobeFlags::Diffuse, LobeFlags::Diffuse | LobeFlags::Subsurface,
                                    LobeFlags::Glossy};
+/// Whether a lobe of these flags belongs to the part that has the others.
+constexpr bool in_part(LobeFlags flags, LobeFlags part) {
+    constexpr LobeFlags told_apart = LobeFlags::Diffuse | LobeFlags::Subsurface;
+    return (flags & told_apart) == (part & told_apart);
+}
 
 class Bsdf {
   public:
@@ -102,11 +109,11 @@ class Bsdf {
     /// Appends an alternative of LobeVariant, or a LobeVariant; weights are >= 0. A black weight
     /// adds nothing. False if the list is full and the lobe is lost.
     template <class L>
-    bool add(Color const& weight, L const& kind) {
+    bool add(Color const& weight, L const& kind, uint16_t layer = 0) {
         if (is_black(weight)) return true;
         if (count_ == capacity) return false;
         Lobe const& lobe = *std::construct_at(
-            &lobes_[count_++], Lobe{weight, 1, uint8_t(current_frame_), LobeVariant(kind)});
+            &lobes_[count_++], Lobe{weight, 1, uint8_t(current_frame_), layer, LobeVariant(kind)});
         LobeFlags const flags = match(lobe.kind, [](auto const& l) { return l.flags(); });
         flags_ |= flags;
         if (!any(flags, LobeFlags::Delta)) smooth_flags_ |= flags;
@@ -280,11 +287,10 @@ inline void Bsdf::prepare(Vec3 const& wo) {
 }
 
 inline LobeValue Bsdf::eval_part(Vec3 const& wo, Vec3 const& wi, LobeFlags part) const {
-    constexpr LobeFlags told_apart = LobeFlags::Diffuse | LobeFlags::Subsurface;
     LobeValue sum;
     for (int i = 0; i < count_; ++i) {
         LobeFlags const flags = match(lobes_[i].kind, [](auto const& l) { return l.flags(); });
-        if ((flags & told_apart) != (part & told_apart)) continue;
+        if (!in_part(flags, part)) continue;
         LobeValue const v = eval_folded({i, i + 1, frames_[lobes_[i].frame]}, wo, wi);
         sum.f += v.f;
         sum.pdf += v.pdf;
@@ -328,7 +334,7 @@ inline BsdfSample Bsdf::sample(Vec3 const& wo, Vec3 const& u, bool by_part) cons
     }
 
     LobeFlags const other = p.wi.z > 0 ? LobeFlags::Transmission : LobeFlags::Reflection;
-    BsdfSample result{wi, {}, 0, p.flags & ~other, p.eta_scale};
+    BsdfSample result{wi, {}, 0, p.flags & ~other, p.eta_scale, lobe.layer};
     if (any(p.flags, LobeFlags::Delta)) {
         result.weight = lobe.weight * p.delta_weight * (1 / lobe.pick);
         result.pdf = lobe.pick * p.delta_probability;

@@ -32,6 +32,7 @@ enum class Aov : uint8_t {
     direct_subsurface,
     indirect_subsurface,
     light_groups,
+    layers,
     denoise_albedo,
     denoise_normal,
     crypto_object,
@@ -43,12 +44,15 @@ enum class Aov : uint8_t {
     removed
 };
 
+/// The light group, and the layer, of whatever names none; always the first.
+inline constexpr char const* kDefaultGroup = "default";
+
 struct AovInfo {
     std::string_view name, channels, help;
 };
 
 /// In the order of `Aov`.
-inline constexpr std::array<AovInfo, 30> kAovs{{
+inline constexpr std::array<AovInfo, 31> kAovs{{
     {"beauty", "R G B", "The picture itself; always there."},
     {"alpha", "A",
      "How much of the pixel is covered: holes of opacity and the background are not."},
@@ -80,6 +84,9 @@ inline constexpr std::array<AovInfo, 30> kAovs{{
     {"light_groups", "light_NAME.R ...",
      "One picture per `group` of lights, and light_default of all others; they add up to the "
      "beauty."},
+    {"layers", "layer_NAME.R ...",
+     "One picture per `label` of materials' layers, of the light that the camera sees this layer "
+     "scatter, and layer_default of all other light; they add up to the beauty."},
     {"denoise_albedo", "denoise_albedo.R ...",
      "Guide for denoisers: albedo of the first surface that is no mirror or clear glass, seen by "
      "way of those."},

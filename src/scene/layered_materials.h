@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -13,6 +14,11 @@ namespace weft::scene {
 
 /// What a material made of several is for secondary rays: those that have been scattered by a
 /// surface that is not a mirror or clear glass, or by a medium.
+inline constexpr schema::Attr kLabelAttr{
+    .help = "Name of the layer: the AOV `layers` has a picture of the light that the camera sees "
+            "it scatter, all layers of one name together. Letters, digits, _ and -; without one it "
+            "belongs to the layer around it."};
+
 enum class SecondaryRays { full, base };
 constexpr auto choices(SecondaryRays) { return std::array<std::string_view, 2>{"full", "base"}; }
 
@@ -24,6 +30,7 @@ struct Layer {
     MaterialId bsdf;
     Input<float> opacity{1};
     Input<Vec3> normal{Vec3(0, 0, 0)};
+    std::string label;
 
     template <class F>
     constexpr void describe(F&& f) {
@@ -33,6 +40,7 @@ struct Layer {
         f("normal", normal,
           {.help = "Shading normal of this layer, from a `normalmap` or `bump` node; the mask may "
                    "feed that, so that paint has an edge."});
+        f("label", label, kLabelAttr);
     }
 };
 
@@ -74,6 +82,7 @@ struct Coat {
     Input<float> thickness{1};
     Input<Color> tint{Color(1)};
     Input<Vec3> normal{Vec3(0, 0, 0)};
+    std::string label;
     SecondaryRays secondary = SecondaryRays::full;
 
     template <class F>
@@ -91,6 +100,8 @@ struct Coat {
            .help = "What a layer of thickness 1 lets through, in and out along the normal; flatter "
                    "rays go a longer way."});
         f("normal", normal, {.help = "Shading normal of the coat alone."});
+        f("label", label,
+          {.help = "Name of the coat's own reflection for the AOV `layers`, as of a `layer`."});
         f("secondary", secondary,
           {.help = "For light that was scattered before: all of it, or what lies below alone."});
     }
@@ -105,12 +116,16 @@ struct Mix {
                    "  <bsdf type=\"diffuse\"/><bsdf type=\"conductor\"/></bsdf>"};
     std::vector<MaterialId> bsdfs;
     Input<float> amount{0.5f};
+    std::string label0, label1;
     SecondaryRays secondary = SecondaryRays::full;
 
     template <class F>
     constexpr void describe(F&& f) {
         f("bsdf", bsdfs, {.help = "The two materials."});
         f("amount", amount, {.min = 0, .max = 1, .help = "Share of the second one: a mask."});
+        f("label0", label0,
+          {.help = "Name of the first one for the AOV `layers`, as of a `layer`."});
+        f("label1", label1, {.help = "Likewise of the second one."});
         f("secondary", secondary,
           {.help = "For light that was scattered before: both, or the first one alone."});
     }

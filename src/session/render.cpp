@@ -141,6 +141,7 @@ film::Layout make_layout(world::World const& world, io::RenderJob const& job,
     film::LayoutOptions o;
     o.half_sums = options.half_sums || options.noise > 0;
     o.light_groups = tags.light_groups;
+    o.layers = tags.layers;
     match(job.integrator, [&](auto const& i) {
         if constexpr (requires { i.outputs; })
             o.cryptomatte_levels = i.outputs.cryptomatte_levels;

@@ -61,6 +61,7 @@ std::string material_name(world::World const& world, uint32_t object) {
 film::SceneTags scene_tags(world::World const& world) {
     film::SceneTags tags;
     add_light_groups(world, tags);
+    tags.layers = world.layer_labels();
     scene::Scene const& scene = world.scene();
     for (uint32_t i = 0; i < world.statistics().objects; ++i) {
         world::Object const& o = world.object(i);

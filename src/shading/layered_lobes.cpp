@@ -10,15 +10,18 @@ void LobeBuilder::build(scene::MaterialId id) const {
     to.bsdf.use_frame(frame);
     LobeBuilder inner = *this;
     inner.layers = &material.layers;
+    inner.labels = &material.labels;
     match(material.parameters, [&](auto const& m) { inner(m, values); });
 }
 
-void LobeBuilder::build_part(scene::MaterialId id, Color const& w, Frame const& f) const {
+void LobeBuilder::build_part(scene::MaterialId id, Color const& w, Frame const& f,
+                             uint16_t l) const {
     if (is_black(w)) return;
     LobeBuilder inner = *this;
     inner.weight *= w;
     inner.frame = f;
     inner.part = true;
+    inner.label = l;
     inner.build(id);
 }
 
@@ -28,7 +31,8 @@ void LobeBuilder::operator()(scene::Layered const& m, Values const& at) const {
         bool const last = &layer == &layers->back();
         if (!last && m.secondary == scene::SecondaryRays::base && view.secondary) continue;
         float const opacity = unit(at(layer.opacity));
-        build_part(layer.bsdf, Color(uncovered * opacity), frame_around(at(layer.normal)));
+        build_part(layer.bsdf, Color(uncovered * opacity), frame_around(at(layer.normal)),
+                   label_of(size_t(&layer - layers->data())));
         uncovered *= 1 - opacity;
     }
 }
@@ -36,28 +40,31 @@ void LobeBuilder::operator()(scene::Layered const& m, Values const& at) const {
 void LobeBuilder::operator()(scene::Coat const& m, Values const& at) const {
     float const w = unit(at(m.weight));
     if (w == 0 || (m.secondary == scene::SecondaryRays::base && view.secondary)) {
-        build_part(m.bsdf, Color(1), frame);
+        build_part(m.bsdf, Color(1), frame, label);
         return;
     }
     Frame const around = frame_around(at(m.normal));
     to.bsdf.use_frame(around);
     float const ior = at(m.ior), alpha = this->alpha(at(m.roughness));
     lobes::GgxReflection const lobe{{alpha, alpha}, lobes::DielectricFresnel{ior}, true};
-    add(Color(w), lobe);
+    LobeBuilder coat = *this;
+    coat.label = label_of(0);
+    coat.add(Color(w), lobe);
     Color const through =
         layer_transmittance(unit(at(m.tint)), at(m.thickness), ior, dot(around.n, view.wo));
-    build_part(m.bsdf, rest_of(w * albedo(lobe, around)) * lerp(Color(1), through, w), frame);
+    build_part(m.bsdf, rest_of(w * albedo(lobe, around)) * lerp(Color(1), through, w), frame,
+               label);
 }
 
 void LobeBuilder::operator()(scene::Mix const& m, Values const& at) const {
     bool const first_alone = m.secondary == scene::SecondaryRays::base && view.secondary;
     float const amount = first_alone ? 0 : unit(at(m.amount));
-    build_part(m.bsdfs[0], Color(1 - amount), frame);
-    build_part(m.bsdfs[1], Color(amount), frame);
+    build_part(m.bsdfs[0], Color(1 - amount), frame, label_of(0));
+    build_part(m.bsdfs[1], Color(amount), frame, label_of(1));
 }
 
 void LobeBuilder::operator()(scene::Secondary const& m, Values const&) const {
-    build_part(m.bsdfs[view.secondary ? 1 : 0], Color(1), frame);
+    build_part(m.bsdfs[view.secondary ? 1 : 0], Color(1), frame, label);
 }
 
 } // namespace weft::shading

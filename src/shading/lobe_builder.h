@@ -21,10 +21,14 @@ struct LobeBuilder {
     Color weight{1};   ///< what layers above leave of the light
     bool part = false; ///< of another material: opacity and emission are its own affair
     std::vector<scene::Layer> const* layers = nullptr; ///< of a `layered` one
+    std::vector<uint16_t> const* labels = nullptr;     ///< of the parts
+    uint16_t label = 0;                                ///< of the layer that all of it is in
 
     void build(scene::MaterialId id) const;
-    /// The same for a part that gets the share `w` of the light, around `f`.
-    void build_part(scene::MaterialId id, Color const& w, Frame const& f) const;
+    /// The same for a part that gets the share `w` of the light, around `f`, in the layer `l`.
+    void build_part(scene::MaterialId id, Color const& w, Frame const& f, uint16_t l) const;
+    /// The label of a part of this material, or else that of the whole.
+    uint16_t label_of(size_t i) const { return (*labels)[i] ? (*labels)[i] : label; }
 
     void operator()(scene::Diffuse const& m, Values const& at) const;
     void operator()(scene::Conductor const& m, Values const& at) const;
@@ -45,7 +49,7 @@ struct LobeBuilder {
 
     template <class L>
     void add(Color const& w, L const& lobe) const {
-        to.bsdf.add(weight * w, lobe);
+        to.bsdf.add(weight * w, lobe, label);
     }
     /// How much light from everywhere a lobe around `f` sends towards wo.
     template <class L>

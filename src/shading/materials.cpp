@@ -1,5 +1,6 @@
 #include "shading/materials.h"
 
+#include <algorithm>
 #include <optional>
 
 #include "shading/lobe_builder.h"
@@ -32,6 +33,16 @@ std::vector<scene::MaterialId> parts_of(scene::Material const& m,
     std::vector<scene::MaterialId> parts;
     for (scene::Layer const& layer : layers) parts.push_back(layer.bsdf);
     return parts;
+}
+
+/// What the parts are called that have a name of their own, by their order in the material.
+std::vector<std::string> labels_of(scene::Material const& m,
+                                   std::vector<scene::Layer> const& layers) {
+    if (auto const* coat = std::get_if<scene::Coat>(&m)) return {coat->label};
+    if (auto const* mix = std::get_if<scene::Mix>(&m)) return {mix->label0, mix->label1};
+    std::vector<std::string> labels;
+    for (scene::Layer const& layer : layers) labels.push_back(layer.label);
+    return labels;
 }
 
 std::vector<scene::MaterialId> parts_of(scene::Scene const& scene, scene::MaterialId id) {
@@ -118,6 +129,8 @@ void Materials::compile(scene::Scene const& scene, scene::MaterialId id, GraphCo
         std::visit([&](auto& m) { material.program = compiler.compile(m, where); },
                    material.parameters);
     }
+    for (std::string const& label : labels_of(material.parameters, material.layers))
+        material.labels.push_back(label_index(label, where));
     material.done = true;
     for (scene::MaterialId part : parts_of(material.parameters, material.layers))
         compile(scene, part, compiler);
@@ -125,6 +138,14 @@ void Materials::compile(scene::Scene const& scene, scene::MaterialId id, GraphCo
         throw InputError(where, "expected materials of at most " +
                                     std::to_string(lobes::Bsdf::capacity) + " lobes, found " +
                                     std::to_string(most) + " in the parts of this one");
+}
+
+uint16_t Materials::label_index(std::string const& label, SourceLocation const& where) {
+    if (label.empty()) return 0;
+    size_t const at = size_t(std::find(labels_.begin(), labels_.end(), label) - labels_.begin());
+    if (at > UINT16_MAX) throw InputError(where, "expected at most 65535 labels of layers");
+    if (at == labels_.size()) labels_.push_back(label);
+    return uint16_t(at);
 }
 
 int Materials::most_lobes(scene::MaterialId id) const {

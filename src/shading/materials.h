@@ -6,6 +6,7 @@
 #pragma once
 
 #include "lobes/bsdf.h"
+#include "scene/aov.h"
 #include "scene/scene.h"
 #include "shading/graph_compiler.h"
 #include "shading/surface_point.h"
@@ -38,6 +39,7 @@ Frame shading_frame(SurfacePoint const& point, Vec3 const& n, View const& view);
 struct CompiledMaterial {
     scene::Material parameters;
     std::vector<scene::Layer> layers; ///< of a `layered` one
+    std::vector<uint16_t> labels;     ///< in Materials::labels, of its layers, coat or two parts
     Program program;
     bool done = false;
 };
@@ -63,6 +65,9 @@ class Materials {
     /// `Transparent` lobes.
     Color straight(scene::MaterialId id, SurfacePoint const& point, View const& view) const;
 
+    /// The names of layers, in the order of `lobes::Lobe::layer`.
+    std::vector<std::string> const& labels() const { return labels_; }
+
     CompiledMaterial const& operator[](scene::MaterialId id) const {
         return compiled_[size_t(id.index)];
     }
@@ -71,8 +76,10 @@ class Materials {
     template <class F>
     void for_each_part(scene::MaterialId id, F const& f) const;
     int most_lobes(scene::MaterialId id) const;
+    uint16_t label_index(std::string const& label, SourceLocation const& where);
 
     std::vector<CompiledMaterial> compiled_; ///< as the scene's
+    std::vector<std::string> labels_{scene::kDefaultGroup};
 };
 
 /// Index of refraction of a closed object of this material.

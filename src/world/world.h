@@ -148,6 +148,8 @@ class World {
 
     CameraRays const& camera() const { return camera_; }
     LightTable const& lights() const { return lights_; }
+    /// The names of materials' layers, in the order of `lobes::Lobe::layer`.
+    std::vector<std::string> const& layer_labels() const { return materials_.labels(); }
     shading::Textures const& textures() const { return textures_; }
     scene::Scene const& scene() const { return *scene_; }
     WorldStatistics const& statistics() const { return statistics_; }

@@ -43,6 +43,15 @@ std::map<std::string, std::string> const kScenes{
     {"gel and a leaf", kFloor + kLamp + kSky + R"(
         <instance><shape type="rectangle"/><bsdf type="transparent" transmittance="0.9,0.3,0.2"/><transform><translate z="-1"/></transform></instance>
         <instance><shape type="sphere"/><bsdf type="translucent"/><transform><translate z="1"/></transform></instance>)"},
+    {"layers", kFloor + kLamp + kSky + R"(
+        <instance><shape type="sphere"/><bsdf type="layered">
+          <layer opacity="0.4" label="dirt"><bsdf type="diffuse" albedo="0.3,0.2,0.1"/></layer>
+          <layer opacity="0.7" label="paint"><bsdf type="coat" roughness="0" label="varnish"><bsdf type="disney" metallic="0.6" roughness="0.3"/></bsdf></layer>
+          <layer><bsdf type="mix" label1="mirror"><bsdf type="principled"/><bsdf type="conductor"/></bsdf></layer></bsdf></instance>
+        <instance><shape type="sphere"/><bsdf type="coat" label="varnish"><bsdf type="translucent"/></bsdf><transform><scale value="0.5"/><translate x="-1.2" y="-0.5"/></transform></instance>)"},
+    {"layers, by kinds of scattering", kFloor + kLamp + R"(
+        <instance><shape type="sphere"/><bsdf type="mix" label0="plastic" label1="metal"><bsdf type="principled" roughness="0.5"/><bsdf type="coat"><bsdf type="roughconductor" roughness="0.5"/></bsdf></bsdf></instance>
+        <light type="point" position="2,2,-2" power="30" diffuse="0.5"/>)"},
 };
 
 RenderResult render_aovs(std::string const& contents, std::vector<Aov> aovs, int spp = 16,
@@ -125,30 +134,41 @@ TEST(Aovs, LightFromBelowIsTheShareOfTheMatter) {
     EXPECT_NEAR((diffuse + below) / whole, 1, 3e-3);    // noise of 300,000 samples
 }
 
-TEST(Aovs, ComponentsAndLightGroupsAddUpToBeauty) {
+/// The layers whose names begin so.
+std::vector<std::string> layers_like(Channels const& channels, std::string const& prefix) {
+    std::vector<std::string> layers;
+    for (std::string const& n : channels.names())
+        if (n.starts_with(prefix) && n.ends_with(".R")) layers.push_back(n.substr(0, n.size() - 2));
+    return layers;
+}
+
+TEST(Aovs, ComponentsGroupsAndLayersAddUpToBeauty) {
     for (auto const& [name, contents] : kScenes)
         for (char const* strategy : {"mis", "nee", "bsdf"}) {
             SCOPED_TRACE(name + ", " + strategy);
             std::vector<Aov> aovs = kComponentAovs;
             aovs.push_back(Aov::light_groups);
+            aovs.push_back(Aov::layers);
             RenderResult const r =
                 render_aovs(kCamera + contents, aovs, 16,
                             "type=\"path\" depth=\"8\" strategy=\"" + std::string(strategy) + "\"");
             EXPECT_EQ(r.bad_samples, 0u);
             Channels const channels(r.film);
-            std::vector<std::string> components, groups;
+            std::vector<std::string> components;
             for (Aov aov : kComponentAovs) components.emplace_back(scene::kAovs[size_t(aov)].name);
-            for (std::string const& n : channels.names())
-                if (n.starts_with("light_") && n.ends_with(".R"))
-                    groups.push_back(n.substr(0, n.size() - 2));
+            std::vector<std::string> const groups = layers_like(channels, "light_"),
+                                           layers = layers_like(channels, "layer_");
             EXPECT_GE(groups.size(), 2u);
+            EXPECT_EQ(layers.size(), name == "layers" ? 5u : name.starts_with("layers") ? 3u : 1u);
             double const by_component = worst_sum(channels, components),
-                         by_group = worst_sum(channels, groups);
+                         by_group = worst_sum(channels, groups),
+                         by_layer = worst_sum(channels, layers);
             EXPECT_LT(by_component, 1e-5);
             EXPECT_LT(by_group, 1e-5);
+            EXPECT_LT(by_layer, 1e-5);
             if (std::string(strategy) == "mis")
-                std::printf("  %s: components to %.1e, groups to %.1e\n", name.c_str(),
-                            by_component, by_group);
+                std::printf("  %s: components to %.1e, groups to %.1e, layers to %.1e\n",
+                            name.c_str(), by_component, by_group, by_layer);
         }
 }
 
@@ -238,6 +258,75 @@ TEST(Aovs, ComponentsDoNotDependOnTheStrategy) {
         for (char const* other : {"nee", "bsdf"})
             EXPECT_GT(difference_p_value(estimates["mis"][k], estimates[other][k]), sidak(0.01, 4))
                 << other << (k ? " specular" : " diffuse");
+}
+
+/// A wall of three layers, of which those not in `kept` are black, under a lamp and a sky.
+std::string layered_wall(std::string const& kept) {
+    auto const layer = [&](std::string const& name, std::string const& attributes,
+                           std::string const& bsdf) {
+        bool const is_kept = kept.find(name) != std::string::npos;
+        return "<layer label=\"" + name + "\" " + attributes + ">" +
+               (is_kept ? bsdf : "<bsdf type=\"diffuse\" albedo=\"0\"/>") + "</layer>";
+    };
+    return R"(<camera type="orthographic" width="16" height="16" scale="1"/>
+        <instance><shape type="rectangle"/><bsdf type="layered">)" +
+           layer("dust", "opacity=\"0.3\"", "<bsdf type=\"diffuse\" albedo=\"0.8,0.5,0.2\"/>") +
+           layer(
+               "paint", "opacity=\"0.6\"",
+               R"(<bsdf type="principled" baseColor="0.2,0.5,0.8" metallic="0" specular="1" roughness="0.5"/>)") +
+           layer("metal", "", R"(<bsdf type="roughconductor" roughness="0.4"/>)") +
+           R"(</bsdf><transform><scale value="2"/><rotate axis="0,1,0" angle="180"/><translate z="1"/></transform></instance>
+        <light type="area"><instance><shape type="rectangle"/><emission type="lambertian" emission="2"/><transform><scale value="1.5"/><translate x="1" z="-2"/></transform></instance></light>)" +
+           kSky;
+}
+
+/// The mean over a picture of a channel, from independent seeds.
+Estimate over_seeds(std::string const& contents, std::vector<Aov> const& aovs,
+                    std::string const& channel, std::string const& integrator, uint32_t seed) {
+    TestScene const scene = make_scene(contents, integrator);
+    RenderOptions options;
+    options.aovs = aovs;
+    options.spp = 16;
+    std::vector<double> means;
+    for (options.seed = seed; options.seed < seed + 24; ++options.seed) {
+        Channels const c(render(*scene.world, scene.job, options).film);
+        double sum = 0;
+        for (size_t i = 0; i < c.size(); ++i) sum += double(c.at(channel, i));
+        means.push_back(sum / double(c.size()));
+    }
+    return estimate(means);
+}
+
+TEST(Layers, AreWhatIsLeftWithTheOthersBlack) {
+    // Whatever finds the light, and also where diffuse and glossy scattering are told apart.
+    uint32_t seed = 1;
+    for (std::string const how :
+         {"strategy=\"mis\"", "strategy=\"nee\"", "strategy=\"bsdf\"", "caustics=\"false\""})
+        for (std::string const layer : {"dust", "paint", "metal"}) {
+            std::string const integrator = "type=\"path\" depth=\"2\" " + how;
+            Estimate const part = over_seeds(layered_wall("dust paint metal"), {Aov::layers},
+                                             "layer_" + layer + ".G", integrator, seed += 100),
+                           alone =
+                               over_seeds(layered_wall(layer), {}, "G", integrator, seed += 100);
+            EXPECT_GT(part.mean, 0.01);
+            EXPECT_GT(difference_p_value(part, alone), sidak(0.01, 12))
+                << layer << ", " << how << ": " << part.mean << " against " << alone.mean;
+        }
+}
+
+TEST(Layers, AreNamedByTheInnermostLabel) {
+    Channels const c(render_aovs(kCamera + R"(
+        <instance><shape type="sphere"/><bsdf type="layered">
+          <layer opacity="0.5" label="outer"><bsdf type="mix" amount="0.25" label1="inner"><bsdf type="diffuse"/><bsdf type="diffuse"/></bsdf></layer>
+          <layer><bsdf type="diffuse"/></layer></bsdf></instance>
+        <light type="envmap"><texture type="constant" value="1"/></light>)",
+                                 {Aov::layers}, 4)
+                         .film);
+    EXPECT_EQ(layers_like(c, "layer_"),
+              (std::vector<std::string>{"layer_default", "layer_outer", "layer_inner"}));
+    EXPECT_NEAR(c.at("layer_outer.R", 20, 15), 0.375 * c.at("R", 20, 15), 1e-5);
+    EXPECT_NEAR(c.at("layer_inner.R", 20, 15), 0.125 * c.at("R", 20, 15), 1e-5);
+    EXPECT_EQ(c.at("layer_default.R", 0, 0), 1) << "the background is in no layer";
 }
 
 TEST(Aovs, OfTheFirstSurfaceAreItsOwn) {
