@@ -84,6 +84,9 @@ std::pair<std::string, std::string> expectation(T const& value, std::string_view
         std::vector<std::string> const known(names.begin(), names.end());
         std::string expected = "one of";
         for (auto const& c : known) expected += (&c == &known.front() ? " " : ", ") + c;
+        if constexpr (requires { why_missing(value, found); })
+            if (auto const why = why_missing(value, found); !why.empty())
+                return {expected, std::string(why)};
         return {expected, nearest_name(found, known).empty() ? "" : suggestion(found, known)};
     } else {
         return {std::string(schema::TextForm<T>::expected), ""};

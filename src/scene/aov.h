@@ -112,6 +112,13 @@ constexpr auto choices(Aov) {
     return names;
 }
 
+/// Of a name that other renderers have, why it is missing here; else "".
+constexpr std::string_view why_missing(Aov, std::string_view name) {
+    return name == "motion" || name == "motion_vector" || name == "velocity"
+               ? " (nothing moves in Weft's scenes yet, so there is no motion to picture)"
+               : "";
+}
+
 /// What an integrator that follows light can make beside its picture.
 struct Outputs {
     std::vector<Aov> aovs;

@@ -151,9 +151,12 @@ std::vector<film::Aov> parse_aovs(std::vector<std::string> const& texts) {
     std::vector<film::Aov> aovs;
     for (std::string const& text : texts)
         for (std::string_view const word : schema::split_words(text))
-            if (!schema::TextForm<film::Aov>::read(word, aovs.emplace_back()))
+            if (!schema::TextForm<film::Aov>::read(word, aovs.emplace_back())) {
+                std::string const why(why_missing(film::Aov(), word));
                 throw InputError("--aov expects names of AOVs, found '" + std::string(word) + "'" +
-                                 suggestion(word, known) + "; `weft help aov` lists them");
+                                 (why.empty() ? suggestion(word, known) : why) +
+                                 "; `weft help aov` lists them");
+            }
     return aovs;
 }
 
