@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "image/mip_levels.h"
+#include "image/source_file.h"
 #include "image/texel.h"
 #include "image/tiled_file.h"
 
@@ -48,7 +49,8 @@ class Texture {
     uint64_t memory_bytes() const { return texels_.size(); }
     TiledFile const* tiles() const { return tiles_.get(); }
 
-    int width = 0, height = 0; ///< texels of level 0
+    int width = 0, height = 0;                ///< texels of level 0
+    std::shared_ptr<SourceFile const> source; ///< null where it is of no file of its own
 
   private:
     TexelFormat format_;

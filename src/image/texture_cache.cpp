@@ -76,7 +76,10 @@ std::shared_ptr<Texture const> TextureCache::load(ImageSource const& source, Tra
     Key const key(source.path, transfer, channels);
     auto& texture = textures_[key];
     try {
-        if (!texture) texture = std::make_shared<Texture>(read(source, transfer, channels));
+        if (!texture) {
+            texture = std::make_shared<Texture>(read(source, transfer, channels));
+            if (!source.bytes) texture->source = std::make_shared<SourceFile const>(source.path);
+        }
     } catch (...) {
         textures_.erase(key);
         throw;

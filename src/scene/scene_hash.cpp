@@ -105,7 +105,7 @@ void add_mesh(Hasher& h, Mesh const& mesh) {
 
 void add_image(Hasher& h, image::Texture const& image) {
     h.add(uint64_t(image.width) << 32 | uint64_t(image.height));
-    if (!image.is_in_memory()) return;
+    if (image.source) return h.add(image.source->contents_hash());
     size_t const size = image.level_count() > 1 ? image.level(1).offset : image.memory_bytes();
     h.add_bytes({image.texels(0), size});
 }

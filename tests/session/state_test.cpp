@@ -3,6 +3,8 @@
 
 #include <cstring>
 
+#include "image/texture_cache.h"
+#include "scene/scene_hash.h"
 #include "session/render_state.h"
 #include "tests/support/scenes.h"
 
@@ -37,6 +39,33 @@ std::string message(std::vector<RenderState> parts) {
     } catch (InputError const& e) {
         return e.what();
     }
+}
+
+/// The hash of a scene with a texture in `folder`, read through a cache with these options.
+uint64_t hash_of_textured(std::string const& folder, image::TextureCacheOptions const& options) {
+    auto const file = io::parse_scene(
+        R"(<scene><camera type="perspective"/><instance><shape type="sphere"/><bsdf type="diffuse">
+        <texture name="albedo" type="image" filename="map.exr"/></bsdf></instance></scene>)",
+        "test", folder, {}, std::make_shared<image::TextureCache>(options));
+    return scene::scene_hash(*file.jobs.at(0).scene);
+}
+
+TEST(SceneHash, IsOfTheContentsOfFiles) {
+    TemporaryFolder const here, there, cache;
+    image::TextureCacheOptions memory, tiles;
+    tiles.small_texels = 0;
+    tiles.folder = cache.path();
+    image::Image picture = image::make_image(96, 64, 3);
+    image::write_exr(here / "map.exr", picture);
+    image::write_exr(there / "map.exr", picture);
+    uint64_t const hash = hash_of_textured(here.path(), memory);
+    EXPECT_EQ(hash_of_textured(there.path(), memory), hash) << "wherever it lies";
+    EXPECT_EQ(hash_of_textured(there.path(), tiles), hash) << "in memory or not";
+    picture.at(70, 40, 1) = 0.5f;
+    image::write_exr(there / "map.exr", picture);
+    uint64_t const changed = hash_of_textured(there.path(), tiles);
+    EXPECT_NE(changed, hash) << "one texel";
+    EXPECT_EQ(hash_of_textured(there.path(), memory), changed);
 }
 
 TEST(State, IsReadAsItIsWritten) {
