@@ -25,7 +25,7 @@ constexpr int kSide = kTile + 2 * kHalo;
 constexpr float kStrength = 0.6f;     ///< k_c of the paper: larger is smoother
 constexpr float kMostDifference = 40; ///< of one pixel of a patch, in units of the noise
 /// The two pixels themselves must not differ by more than noise hardly ever does.
-float const kPointwise = getenv("PW") ? float(atof(getenv("PW"))) : 12;
+constexpr float kPointwise = 12;
 constexpr float kAlbedoScale = 0.04f, kNormalScale = 0.15f;
 /// What is darker is not divided by its own albedo: where an emitter, which has none, meets a
 /// surface, that would blow up small differences.
