@@ -14,8 +14,8 @@ Applied apply(scene::Denoising const& denoising, Inputs const& inputs) {
     options.backend = denoising.backend;
     options.memory = denoising.memory;
     Denoised result = denoise(input, options);
-    return {std::move(result.image),
-            "denoising (" + std::string(backend_name(result.backend)) + ")"};
+    return {std::move(result.image), "denoising (" + std::string(backend_name(result.backend)) +
+                                         (result.lacks_weights ? ", balanced)" : ")")};
 }
 
 } // namespace weft::post

@@ -43,7 +43,8 @@ Denoised denoise(DenoiseInput const& input, DenoiseOptions const& options) {
     bool const any = options.backend == Backend::automatic;
     if (any || options.backend == Backend::oidn) {
         OidnLibrary const library(options.oidn_libraries);
-        if (library) return {denoise_oidn(library, input, options.memory), Backend::oidn};
+        if (library)
+            return {denoise_oidn(library, input, options.quality, options.memory), Backend::oidn};
         if (!any)
             throw InputError(
                 "the backend 'oidn' expects Intel Open Image Denoise to be installed: " +
@@ -51,11 +52,15 @@ Denoised denoise(DenoiseInput const& input, DenoiseOptions const& options) {
     }
     if (any || options.backend == Backend::network) {
         auto const folders = weight_folders(options.weights);
-        std::string const file = weights_file(input), path = find_weights(file, folders);
-        if (!path.empty()) return {denoise_network(input, path, options.memory), Backend::network};
+        for (Quality quality = options.quality;; quality = Quality::balanced) {
+            if (auto const paths = find_weights(weights_files(input, quality), folders))
+                return {denoise_network(input, *paths, options.memory), Backend::network,
+                        quality != options.quality};
+            if (quality == Quality::balanced) break;
+        }
         if (!any)
-            throw InputError("the backend 'network' expects the file " + file + " in " +
-                             list(folders) +
+            throw InputError("the backend 'network' expects the file " +
+                             weights_files(input, options.quality).color + " in " + list(folders) +
                              ", found none: tools/setup denoise downloads it; 'nlm' does "
                              "without it");
     }

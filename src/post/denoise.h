@@ -11,6 +11,7 @@
 // channels is made: alpha and other layers are the caller's.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,11 @@ namespace weft::post {
 
 using Backend = scene::DenoiseBackend;
 
+/// How much time it may take. `high`: the noise is taken out of albedo and normal first, where both
+/// are there, and then the larger network; `balanced`: the smaller network for guides with noise.
+enum class Quality { high, balanced };
+constexpr auto choices(Quality) { return std::array<std::string_view, 2>{"high", "balanced"}; }
+
 struct DenoiseInput {
     image::Image const* color = nullptr; ///< linear RGB, any exposure; further channels are ignored
     image::Image const* albedo = nullptr; ///< of the first surface, in [0, 1]; may be null
@@ -29,6 +35,7 @@ struct DenoiseInput {
 
 struct DenoiseOptions {
     Backend backend = Backend::automatic;
+    Quality quality = Quality::high;
     /// Megabytes (2^20 bytes) that may be taken beside the pictures; at least 256. Where that is
     /// less than the whole picture needs it is done in tiles.
     int memory = 1024;
@@ -42,6 +49,8 @@ struct DenoiseOptions {
 struct Denoised {
     image::Image image; ///< RGB, of the size of the colour
     Backend backend;    ///< that did it; not `automatic`
+    /// The network did it in balanced quality, since the weights of high quality are not there.
+    bool lacks_weights = false;
 };
 
 /// Throws InputError where sizes or numbers of channels do not go together, where memory does not

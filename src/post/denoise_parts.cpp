@@ -20,6 +20,7 @@ DenoisedParts denoise_parts(std::span<image::Image const> parts, DenoiseInput gu
         guides.color = &color;
         Denoised d = denoise(guides, options);
         result.backend = d.backend;
+        result.lacks_weights |= d.lacks_weights;
         return std::move(d.image);
     };
     result.whole = denoised(sum);

@@ -20,6 +20,7 @@ struct DenoisedParts {
     image::Image whole;
     std::vector<image::Image> parts; ///< their sum is `whole`, to the rounding of floats
     Backend backend = Backend::nlm;
+    bool lacks_weights = false; ///< as of `Denoised`
 };
 
 /// `guides` gives albedo and normal; its colour is not used. Throws as `denoise`.

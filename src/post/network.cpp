@@ -4,10 +4,12 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <functional>
 
+#include "base/color.h"
 #include "post/exposure.h"
 #include "post/tiling.h"
-#include "post/unet.h"
+#include "post/weights.h"
 
 namespace weft::post {
 
@@ -34,34 +36,73 @@ int mirrored(int x, int size) {
     return x < size ? x : period - 1 - x;
 }
 
-struct Picture {
-    DenoiseInput input;
-    int channels;
-    float exposure;
+/// One picture's way through one network.
+struct Pass {
+    int width, height, channels;
+    std::function<void(int x, int y, float* to)> encode; ///< what the network sees of the pixel
+    /// Takes the pixels [x0, x1) of row y: three values for each.
+    std::function<void(int y, int x0, int x1, float const* from)> take_row;
 };
 
-/// What the network sees of the pixel.
-void encode_pixel(Picture const& p, int x, int y, float* to) {
-    for (int c = 0; c < 3; ++c)
-        *to++ = encode_hdr(std::min(sane(p.input.color->at(x, y, c) * p.exposure), kMostLight));
-    if (p.channels >= 6)
-        for (int c = 0; c < 3; ++c) *to++ = std::min(sane(p.input.albedo->at(x, y, c)), 1.f);
-    if (p.channels >= 9)
-        for (int c = 0; c < 3; ++c) {
-            float const n = p.input.normal->at(x, y, c);
-            *to++ = std::isfinite(n) ? 0.5f + 0.5f * std::clamp(n, -1.f, 1.f) : 0.5f;
-        }
+void encode_albedo(image::Image const& albedo, int x, int y, float* to) {
+    for (int c = 0; c < 3; ++c) to[c] = std::min(sane(albedo.at(x, y, c)), 1.f);
+}
+
+void encode_normal(image::Image const& normal, int x, int y, float* to) {
+    for (int c = 0; c < 3; ++c) {
+        float const n = normal.at(x, y, c);
+        to[c] = std::isfinite(n) ? 0.5f + 0.5f * std::clamp(n, -1.f, 1.f) : 0.5f;
+    }
 }
 
 /// Windows are places in the picture with its margins.
-void fill_window(Picture const& p, int x0, int y0, int width, int height, float* to) {
-    image::Image const& color = *p.input.color;
+void fill_window(Pass const& pass, int x0, int y0, int width, int height, float* to) {
     tbb::parallel_for(0, height, [&](int y) {
-        float* row = to + size_t(y) * size_t(width) * size_t(p.channels);
-        for (int x = 0; x < width; ++x, row += p.channels)
-            encode_pixel(p, mirrored(x0 + x - kMargin, color.width),
-                         mirrored(y0 + y - kMargin, color.height), row);
+        float* row = to + size_t(y) * size_t(width) * size_t(pass.channels);
+        for (int x = 0; x < width; ++x, row += pass.channels)
+            pass.encode(mirrored(x0 + x - kMargin, pass.width),
+                        mirrored(y0 + y - kMargin, pass.height), row);
     });
+}
+
+void take_window(Pass const& pass, Window const& wx, Window const& wy, int width,
+                 float const* from) {
+    auto first = [](Window const& w) { return std::max(w.from - kMargin, 0); };
+    auto last = [](Window const& w, int size) { return std::min(w.to - kMargin, size); };
+    tbb::parallel_for(first(wy), last(wy, pass.height), [&](int y) {
+        int const x0 = first(wx);
+        float const* row =
+            from +
+            (size_t(y + kMargin - wy.begin) * size_t(width) + size_t(x0 + kMargin - wx.begin)) * 3;
+        pass.take_row(y, x0, last(wx, pass.width), row);
+    });
+}
+
+Tiling tiling_for(UnetSize size, int width, int height, int channels, int memory) {
+    return tile_picture(width + 2 * kMargin, height + 2 * kMargin,
+                        {kUnetAlignment, unet_reach(size)}, size_t(memory) << 20,
+                        [&](int w, int h) { return unet_memory(size, channels, w, h); });
+}
+
+void run(Pass const& pass, std::string const& file, int memory) {
+    Weights const weights = read_weights(file);
+    Tiling const tiling =
+        tiling_for(unet_size(weights), pass.width, pass.height, pass.channels, memory);
+    if (tiling.x.windows.empty())
+        throw InputError("denoising expects more memory than " + std::to_string(memory) +
+                         " MB for its smallest tiles");
+    try {
+        Unet network(weights, file, pass.channels, tiling.x.size, tiling.y.size);
+        for (Window const& wy : tiling.y.windows)
+            for (Window const& wx : tiling.x.windows) {
+                fill_window(pass, wx.begin, wy.begin, tiling.x.size, tiling.y.size,
+                            network.input());
+                network.run();
+                take_window(pass, wx, wy, tiling.x.size, network.output());
+            }
+    } catch (dnnl::error const& e) {
+        throw InputError(std::string("oneDNN cannot evaluate the network: ") + e.what());
+    }
 }
 
 /// The least and the largest light of each channel in the window around each pixel of a row. The
@@ -99,42 +140,83 @@ Limits limits_of_row(image::Image const& color, int y, int x0, int x1) {
     return limits;
 }
 
-void take_window(Picture const& p, Window const& wx, Window const& wy, int width, float const* from,
-                 image::Image& to) {
-    auto first = [](Window const& w) { return std::max(w.from - kMargin, 0); };
-    auto last = [](Window const& w, int size) { return std::min(w.to - kMargin, size); };
-    tbb::parallel_for(first(wy), last(wy, to.height), [&](int y) {
-        int const x0 = first(wx), x1 = last(wx, to.width);
-        Limits const limits = limits_of_row(*p.input.color, y, x0, x1);
-        for (int x = x0; x < x1; ++x) {
-            float const* pixel = from + (size_t(y + kMargin - wy.begin) * size_t(width) +
-                                         size_t(x + kMargin - wx.begin)) *
-                                            3;
-            for (int c = 0; c < 3; ++c) {
-                size_t const i = size_t(3 * (x - x0) + c);
-                float const light = std::min(decode_hdr(sane(pixel[c])), kMostLight) / p.exposure;
-                to.at(x, y, c) = std::clamp(light, limits.least[i], limits.most[i]);
+image::Image denoise_color(DenoiseInput const& input, std::string const& weights, int memory) {
+    image::Image const& color = *input.color;
+    bool const with_normal = input.albedo && input.normal;
+    float const exposure = auto_exposure(color);
+    image::Image result = image::make_image(color.width, color.height, 3);
+    Pass const pass{
+        color.width, color.height, input.albedo ? (with_normal ? 9 : 6) : 3,
+        [&](int x, int y, float* to) {
+            for (int c = 0; c < 3; ++c)
+                to[c] = encode_hdr(std::min(sane(color.at(x, y, c) * exposure), kMostLight));
+            if (input.albedo) encode_albedo(*input.albedo, x, y, to + 3);
+            if (with_normal) encode_normal(*input.normal, x, y, to + 6);
+        },
+        [&](int y, int x0, int x1, float const* from) {
+            Limits const limits = limits_of_row(color, y, x0, x1);
+            float* const to = &result.at(x0, y, 0);
+            for (size_t i = 0; i < size_t(3 * (x1 - x0)); ++i) {
+                float const light = std::min(decode_hdr(sane(from[i])), kMostLight) / exposure;
+                to[i] = std::clamp(light, limits.least[i], limits.most[i]);
             }
-        }
-    });
+        }};
+    run(pass, weights, memory);
+    return result;
 }
 
-Tiling tiling_for(int width, int height, int channels, int memory) {
-    return tile_picture(width + 2 * kMargin, height + 2 * kMargin, {kUnetAlignment, kUnetReach},
-                        size_t(memory) << 20,
-                        [&](int w, int h) { return unet_memory(channels, w, h); });
+image::Image clean_albedo(image::Image const& albedo, std::string const& weights, int memory) {
+    image::Image result = image::make_image(albedo.width, albedo.height, 3);
+    Pass const pass{albedo.width, albedo.height, 3,
+                    [&](int x, int y, float* to) {
+                        encode_albedo(albedo, x, y, to);
+                        for (int c = 0; c < 3; ++c) to[c] = linear_to_srgb(to[c]);
+                    },
+                    [&](int y, int x0, int x1, float const* from) {
+                        float* const to = &result.at(x0, y, 0);
+                        for (size_t i = 0; i < size_t(3 * (x1 - x0)); ++i)
+                            to[i] = srgb_to_linear(std::min(sane(from[i]), 1.f));
+                    }};
+    run(pass, weights, memory);
+    return result;
+}
+
+image::Image clean_normal(image::Image const& normal, std::string const& weights, int memory) {
+    image::Image result = image::make_image(normal.width, normal.height, 3);
+    Pass const pass{normal.width, normal.height, 3,
+                    [&](int x, int y, float* to) { encode_normal(normal, x, y, to); },
+                    [&](int y, int x0, int x1, float const* from) {
+                        float* const to = &result.at(x0, y, 0);
+                        for (size_t i = 0; i < size_t(3 * (x1 - x0)); ++i)
+                            to[i] = 2 * std::min(sane(from[i]), 1.f) - 1;
+                    }};
+    run(pass, weights, memory);
+    return result;
 }
 
 } // namespace
 
-int tile_count(int width, int height, int channels, int memory) {
-    Tiling const tiling = tiling_for(width, height, channels, memory);
+int tile_count(UnetSize size, int width, int height, int channels, int memory) {
+    Tiling const tiling = tiling_for(size, width, height, channels, memory);
     return int(tiling.x.windows.size() * tiling.y.windows.size());
 }
 
-std::string weights_file(DenoiseInput const& input) {
-    if (!input.albedo) return "rt_hdr.tza";
-    return input.normal ? "rt_hdr_alb_nrm.tza" : "rt_hdr_alb.tza";
+NetworkWeights weights_files(DenoiseInput const& input, Quality quality) {
+    if (!input.albedo) return {"rt_hdr.tza", "", ""};
+    if (!input.normal) return {"rt_hdr_alb.tza", "", ""};
+    if (quality == Quality::balanced) return {"rt_hdr_alb_nrm.tza", "", ""};
+    return {"rt_hdr_calb_cnrm_large.tza", "rt_alb.tza", "rt_nrm.tza"};
+}
+
+std::optional<NetworkWeights> find_weights(NetworkWeights const& files,
+                                           std::vector<std::string> const& folders) {
+    NetworkWeights paths;
+    for (auto file : {&NetworkWeights::color, &NetworkWeights::albedo, &NetworkWeights::normal}) {
+        if ((files.*file).empty()) continue;
+        paths.*file = find_weights(files.*file, folders);
+        if ((paths.*file).empty()) return std::nullopt;
+    }
+    return paths;
 }
 
 float encode_hdr(float y) {
@@ -150,28 +232,18 @@ float decode_hdr(float code) {
     return x <= kX1 ? std::pow((x - kD) / kB, 1 / kC) : std::exp((x - kG) / kE) - kF;
 }
 
-image::Image denoise_network(DenoiseInput const& input, std::string const& weights, int memory) {
-    image::Image const& color = *input.color;
-    Picture const picture{input, input.albedo ? (input.normal ? 9 : 6) : 3, auto_exposure(color)};
-    Tiling const tiling = tiling_for(color.width, color.height, picture.channels, memory);
-    if (tiling.x.windows.empty())
-        throw InputError("denoising expects more memory than " + std::to_string(memory) +
-                         " MB for its smallest tiles");
-    image::Image result = image::make_image(color.width, color.height, 3);
-    try {
-        Unet network(read_weights(weights), weights, picture.channels, tiling.x.size,
-                     tiling.y.size);
-        for (Window const& wy : tiling.y.windows)
-            for (Window const& wx : tiling.x.windows) {
-                fill_window(picture, wx.begin, wy.begin, tiling.x.size, tiling.y.size,
-                            network.input());
-                network.run();
-                take_window(picture, wx, wy, tiling.x.size, network.output(), result);
-            }
-    } catch (dnnl::error const& e) {
-        throw InputError(std::string("oneDNN cannot evaluate the network: ") + e.what());
+image::Image denoise_network(DenoiseInput const& input, NetworkWeights const& weights, int memory) {
+    image::Image albedo, normal;
+    DenoiseInput guided = input;
+    if (!weights.albedo.empty()) {
+        albedo = clean_albedo(*input.albedo, weights.albedo, memory);
+        guided.albedo = &albedo;
     }
-    return result;
+    if (!weights.normal.empty()) {
+        normal = clean_normal(*input.normal, weights.normal, memory);
+        guided.normal = &normal;
+    }
+    return denoise_color(guided, weights.color, memory);
 }
 
 } // namespace weft::post

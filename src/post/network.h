@@ -3,20 +3,37 @@
 //
 // What goes into the network and comes out of it follows the published sources: colours are scaled
 // by `auto_exposure` and encoded by `encode_hdr`; albedo is clipped to [0, 1], normals n become (n
-// + 1) / 2. The weights are those for features with noise ("rt_hdr_alb_nrm"), and fewer where there
-// is no normal or no albedo. Weights of the "large" and "small" networks, and those that take the
-// noise out of the features first, are left out.
+// + 1) / 2. Of the published weights there are taken
+//
+//  rt_alb, rt_nrm, rt_hdr_calb_cnrm_large   `high` quality, with albedo and normal: the noise is
+//                                           taken out of these first, then the large network for
+//                                           clean guides sees them
+//  rt_hdr_alb_nrm                           `balanced` quality: guides go in as they are
+//  rt_hdr_alb, rt_hdr                       where there is no normal, or no albedo
+//
+// Left out: the "small" networks, and the large ones for guides, which gain nothing that shows.
 //
 // The weights are files of their own, which `tools/setup denoise` downloads.
 #pragma once
 
+#include <optional>
+
 #include "post/denoise.h"
+#include "post/unet.h"
 
 namespace weft::post {
 
-/// The file of weights for these inputs: "rt_hdr_alb_nrm.tza", "rt_hdr_alb.tza" or "rt_hdr.tza".
-/// Normals without albedo are of no use to the network.
-std::string weights_file(DenoiseInput const& input);
+/// Files with weights; the guides' are "" where guides go in as they are.
+struct NetworkWeights {
+    std::string color, albedo, normal;
+};
+
+/// The names of the files for these inputs. Normals without albedo are of no use to the network.
+NetworkWeights weights_files(DenoiseInput const& input, Quality quality);
+
+/// The paths of those files where all of them are in the folders (each may be in another).
+std::optional<NetworkWeights> find_weights(NetworkWeights const& files,
+                                           std::vector<std::string> const& folders);
 
 /// Light, scaled to the picture's exposure and in [0, 65504], to [0, 1] in steps that look alike: a
 /// fit of the curve of Aydin, Mantiuk and Seidel 2008 ("Extending Quality Metrics to Full
@@ -26,12 +43,12 @@ float encode_hdr(float light);
 float decode_hdr(float code);
 
 /// Into how many tiles it would cut a picture with that many inputs; 0: not even those suffice.
-int tile_count(int width, int height, int channels, int memory);
+int tile_count(UnetSize size, int width, int height, int channels, int memory);
 
-/// Throws InputError where the file of weights `weights` is not what it should be, or where
-/// `memory` megabytes do not suffice for the smallest tiles. The size of the tiles changes pixels
-/// by rounding alone (relatively about 1e-5). The result does not depend on threads; it depends on
-/// the instruction set in the last bits.
-image::Image denoise_network(DenoiseInput const& input, std::string const& weights, int memory);
+/// `weights`: paths. Throws InputError where one is not what it should be, or where `memory`
+/// megabytes do not suffice for the smallest tiles. The size of the tiles changes pixels by
+/// rounding alone (relatively about 1e-5). The result does not depend on threads; it depends on the
+/// instruction set in the last bits.
+image::Image denoise_network(DenoiseInput const& input, NetworkWeights const& weights, int memory);
 
 } // namespace weft::post

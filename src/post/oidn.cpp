@@ -117,36 +117,72 @@ OidnLibrary::OidnLibrary(std::vector<std::string> const& names) {
 
 void* OidnLibrary::function(char const* name) const { return dlsym(handle_, name); }
 
-image::Image denoise_oidn(OidnLibrary const& library, DenoiseInput const& input, int memory) {
-    Functions const f = functions_of(library);
-    Device* const device = f.new_device(kCpuDevice);
-    auto check = [&] {
+namespace {
+
+/// The device, and what to do with it.
+class Denoiser {
+  public:
+    Denoiser(OidnLibrary const& library, int memory)
+        : f_(functions_of(library)), memory_(memory),
+          device_(f_.new_device(kCpuDevice), f_.release_device) {
+        if (!device_) check(); // the error of a device that could not be made
+        f_.commit_device(device_.get());
+        check();
+    }
+
+    using Named = std::pair<char const*, image::Image const*>;
+
+    /// `flags`: those that are true.
+    image::Image run(std::vector<Named> const& inputs, std::vector<char const*> const& flags) {
+        std::unique_ptr<Filter, void (*)(Filter*)> const filter(f_.new_filter(device_.get(), "RT"),
+                                                                f_.release_filter);
+        check();
+        image::Image const& first = *inputs.front().second;
+        image::Image result = image::make_image(first.width, first.height, 3);
+        for (auto const& [name, image] : inputs) set_image(f_, filter.get(), name, *image);
+        set_image(f_, filter.get(), "output", result);
+        for (char const* flag : flags) f_.set_bool(filter.get(), flag, true);
+        f_.set_int(filter.get(), "maxMemoryMB", memory_);
+        f_.commit_filter(filter.get());
+        check();
+        f_.execute_filter(filter.get());
+        check();
+        return result;
+    }
+
+  private:
+    void check() const {
         char const* message = nullptr;
-        if (f.get_device_error(device, &message) != 0)
+        if (f_.get_device_error(device_.get(), &message) != 0)
             throw InputError(std::string("Open Image Denoise: ") +
                              (message ? message : "unknown error"));
-    };
-    if (!device) check(); // the error of a device that could not be made
-    std::unique_ptr<Device, void (*)(Device*)> const device_owner(device, f.release_device);
-    f.commit_device(device);
-    check();
-    std::unique_ptr<Filter, void (*)(Filter*)> const filter(f.new_filter(device, "RT"),
-                                                            f.release_filter);
-    check();
-    image::Image color = three_channels(*input.color);
+    }
+
+    Functions f_;
+    int memory_;
+    std::unique_ptr<Device, void (*)(Device*)> device_;
+};
+
+} // namespace
+
+image::Image denoise_oidn(OidnLibrary const& library, DenoiseInput const& input, Quality quality,
+                          int memory) {
+    Denoiser denoiser(library, memory);
+    image::Image color = three_channels(*input.color), albedo, normal;
     sanitise(color);
-    image::Image result = image::make_image(color.width, color.height, 3);
-    set_image(f, filter.get(), "color", color);
-    if (input.albedo) set_image(f, filter.get(), "albedo", *input.albedo);
-    // It takes normals only beside albedo.
-    if (input.albedo && input.normal) set_image(f, filter.get(), "normal", *input.normal);
-    set_image(f, filter.get(), "output", result);
-    f.set_bool(filter.get(), "hdr", true);
-    f.set_int(filter.get(), "maxMemoryMB", memory);
-    f.commit_filter(filter.get());
-    check();
-    f.execute_filter(filter.get());
-    check();
+    std::vector<Denoiser::Named> inputs{{"color", &color}};
+    std::vector<char const*> flags{"hdr"};
+    if (input.albedo && input.normal && quality == Quality::high) {
+        albedo = denoiser.run({{"albedo", input.albedo}}, {});
+        normal = denoiser.run({{"normal", input.normal}}, {});
+        inputs.insert(inputs.end(), {{"albedo", &albedo}, {"normal", &normal}});
+        flags.push_back("cleanAux");
+    } else if (input.albedo) {
+        inputs.emplace_back("albedo", input.albedo);
+        // It takes normals only beside albedo.
+        if (input.normal) inputs.emplace_back("normal", input.normal);
+    }
+    image::Image result = denoiser.run(inputs, flags);
     sanitise(result);
     return result;
 }

@@ -25,7 +25,10 @@ class OidnLibrary {
     std::string problem_;
 };
 
-/// Throws InputError with the library's message where it fails. `memory` is in megabytes.
-image::Image denoise_oidn(OidnLibrary const& library, DenoiseInput const& input, int memory);
+/// With albedo and normal and `high` quality the noise is taken out of these first, as the
+/// library's documentation advises (version 1.4 or newer). Throws InputError with the library's
+/// message where it fails. `memory` is in megabytes.
+image::Image denoise_oidn(OidnLibrary const& library, DenoiseInput const& input, Quality quality,
+                          int memory);
 
 } // namespace weft::post

@@ -3,8 +3,8 @@
 #include <dnnl.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cstring>
+#include <span>
 
 #include "base/error.h"
 
@@ -14,52 +14,38 @@ namespace {
 
 using dnnl::memory;
 
-/// The pictures that flow through the network: the input, the results of its layers, and those made
-/// smaller.
-enum Tensors {
-    kInput,
-    kEnc0,
-    kEnc1,
-    kPool1,
-    kEnc2,
-    kPool2,
-    kEnc3,
-    kPool3,
-    kEnc4,
-    kPool4,
-    kEnc5a,
-    kEnc5b,
-    kDec4a,
-    kDec4b,
-    kDec3a,
-    kDec3b,
-    kDec2a,
-    kDec2b,
-    kDec1a,
-    kDec1b,
-    kDec0,
-    kTensors
-};
-
-/// One layer. With weights it is a convolution, without it takes the maxima of 2x2 pixels. Where
-/// there is a second input, the first one is half as large and repeated, and the second stacked on
-/// it.
+/// One layer. Layer i makes picture i + 1 out of picture i; picture 0 is the input, the last one
+/// the output. With weights it is a convolution, without it takes the maxima of 2x2 pixels. Where
+/// there is a second input `skip`, the first one is half as large and repeated, and the second
+/// stacked on it.
 struct Layer {
     char const* weights;
-    int to, from, skip = -1;
+    int channels = 0; ///< as published, from which the memory is estimated before weights are read
+    int skip = -1;
 };
 
-constexpr std::array<Layer, 20> kLayers{
-    {{"enc_conv0", kEnc0, kInput},   {"enc_conv1", kEnc1, kEnc0},
-     {nullptr, kPool1, kEnc1},       {"enc_conv2", kEnc2, kPool1},
-     {nullptr, kPool2, kEnc2},       {"enc_conv3", kEnc3, kPool2},
-     {nullptr, kPool3, kEnc3},       {"enc_conv4", kEnc4, kPool3},
-     {nullptr, kPool4, kEnc4},       {"enc_conv5a", kEnc5a, kPool4},
-     {"enc_conv5b", kEnc5b, kEnc5a}, {"dec_conv4a", kDec4a, kEnc5b, kPool3},
-     {"dec_conv4b", kDec4b, kDec4a}, {"dec_conv3a", kDec3a, kDec4b, kPool2},
-     {"dec_conv3b", kDec3b, kDec3a}, {"dec_conv2a", kDec2a, kDec3b, kPool1},
-     {"dec_conv2b", kDec2b, kDec2a}, {"dec_conv1a", kDec1a, kDec2b, kInput},
-     {"dec_conv1b", kDec1b, kDec1a}, {"dec_conv0", kDec0, kDec1b}}};
+constexpr Layer kBaseLayers[] = {
+    {"enc_conv0", 32},   {"enc_conv1", 32},     {nullptr},          {"enc_conv2", 48},
+    {nullptr},           {"enc_conv3", 64},     {nullptr},          {"enc_conv4", 80},
+    {nullptr},           {"enc_conv5a", 96},    {"enc_conv5b", 96}, {"dec_conv4a", 112, 7},
+    {"dec_conv4b", 112}, {"dec_conv3a", 96, 5}, {"dec_conv3b", 96}, {"dec_conv2a", 64, 3},
+    {"dec_conv2b", 64},  {"dec_conv1a", 64, 0}, {"dec_conv1b", 32}, {"dec_conv0", 3}};
+
+constexpr Layer kLargeLayers[] = {
+    {"enc_conv1a", 64},    {"enc_conv1b", 64},     {nullptr},
+    {"enc_conv2a", 96},    {"enc_conv2b", 96},     {nullptr},
+    {"enc_conv3a", 128},   {"enc_conv3b", 128},    {nullptr},
+    {"enc_conv4a", 192},   {"enc_conv4b", 192},    {nullptr},
+    {"enc_conv5a", 256},   {"enc_conv5b", 256},    {"dec_conv4a", 192, 9},
+    {"dec_conv4b", 192},   {"dec_conv3a", 128, 6}, {"dec_conv3b", 128},
+    {"dec_conv2a", 96, 3}, {"dec_conv2b", 96},     {"dec_conv1a", 64, 0},
+    {"dec_conv1b", 64},    {"dec_conv1c", 3}};
+
+using Layers = std::span<Layer const>;
+
+Layers layers_of(UnetSize size) {
+    return size == UnetSize::large ? Layers(kLargeLayers) : Layers(kBaseLayers);
+}
 
 /// A picture within the network: `level` times halved.
 struct Shape {
@@ -68,19 +54,18 @@ struct Shape {
         return sizeof(float) * size_t(channels) * size_t(width >> level) * size_t(height >> level);
     }
 };
-using Shapes = std::array<Shape, kTensors>;
+using Shapes = std::vector<Shape>; ///< of the input, and of what each layer makes
 
 /// `channels_of(layer)`: what its convolution gives.
 template <class F>
-Shapes shapes_of(int channels, F const& channels_of) {
-    Shapes shapes;
-    shapes[kInput] = {channels, 0};
-    for (Layer const& l : kLayers) {
-        Shape const& from = shapes[size_t(l.from)];
+Shapes shapes_of(Layers layers, int channels, F const& channels_of) {
+    Shapes shapes{{channels, 0}};
+    for (Layer const& l : layers) {
+        Shape const from = shapes.back();
         if (!l.weights)
-            shapes[size_t(l.to)] = {from.channels, from.level + 1};
+            shapes.push_back({from.channels, from.level + 1});
         else
-            shapes[size_t(l.to)] = {channels_of(l), from.level - (l.skip >= 0 ? 1 : 0)};
+            shapes.push_back({channels_of(l), from.level - (l.skip >= 0 ? 1 : 0)});
     }
     return shapes;
 }
@@ -88,54 +73,47 @@ Shapes shapes_of(int channels, F const& channels_of) {
 /// Where in one block of memory each picture lies: those that are needed at the same time do not
 /// overlap. The largest are placed first, each as low as it can be.
 struct Arena {
-    std::array<size_t, kTensors> offsets{};
+    std::vector<size_t> offsets;
     size_t size = 0;
 };
 
-Arena plan(Shapes const& shapes, int width, int height) {
+Arena plan(Layers layers, Shapes const& shapes, int width, int height) {
     constexpr size_t kAlign = 64;
-    std::array<int, kTensors> first{}, last{}, order{};
-    for (int i = 0; i < int(kLayers.size()); ++i) {
-        Layer const& l = kLayers[size_t(i)];
-        first[size_t(l.to)] = last[size_t(l.to)] = i;
-        last[size_t(l.from)] = i;
-        if (l.skip >= 0) last[size_t(l.skip)] = i;
+    size_t const count = shapes.size();
+    // The first and the last layer that touches each picture.
+    std::vector<size_t> first(count), last(count), order(count);
+    for (size_t i = 0; i < layers.size(); ++i) {
+        first[i + 1] = last[i + 1] = last[i] = i;
+        if (layers[i].skip >= 0) last[size_t(layers[i].skip)] = i;
     }
-    auto bytes = [&](int t) {
-        return (shapes[size_t(t)].bytes(width, height) + kAlign - 1) / kAlign * kAlign;
+    auto bytes = [&](size_t t) {
+        return (shapes[t].bytes(width, height) + kAlign - 1) / kAlign * kAlign;
     };
-    for (int t = 0; t < kTensors; ++t) order[size_t(t)] = t;
-    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return bytes(a) > bytes(b); });
-    Arena arena;
-    std::vector<int> placed;
-    for (int t : order) {
+    for (size_t t = 0; t < count; ++t) order[t] = t;
+    std::stable_sort(order.begin(), order.end(),
+                     [&](size_t a, size_t b) { return bytes(a) > bytes(b); });
+    Arena arena{std::vector<size_t>(count), 0};
+    std::vector<size_t> placed;
+    for (size_t t : order) {
         size_t offset = 0;
-        auto clash = [&](int other) {
-            return first[size_t(t)] <= last[size_t(other)] &&
-                   first[size_t(other)] <= last[size_t(t)] &&
-                   offset < arena.offsets[size_t(other)] + bytes(other) &&
-                   arena.offsets[size_t(other)] < offset + bytes(t);
+        auto clash = [&](size_t other) {
+            return first[t] <= last[other] && first[other] <= last[t] &&
+                   offset < arena.offsets[other] + bytes(other) &&
+                   arena.offsets[other] < offset + bytes(t);
         };
         for (auto it = placed.begin(); it != placed.end();) {
             if (clash(*it)) {
-                offset = arena.offsets[size_t(*it)] + bytes(*it);
+                offset = arena.offsets[*it] + bytes(*it);
                 it = placed.begin();
             } else {
                 ++it;
             }
         }
-        arena.offsets[size_t(t)] = offset;
+        arena.offsets[t] = offset;
         arena.size = std::max(arena.size, offset + bytes(t));
         placed.push_back(t);
     }
     return arena;
-}
-
-/// The published channels, from which the memory is estimated before weights are read.
-int published_channels(Layer const& layer) {
-    constexpr std::array<int, kTensors> channels{0,  32,  32,  0,  48, 0,  64, 0,  80, 0, 96,
-                                                 96, 112, 112, 96, 96, 64, 64, 64, 32, 3};
-    return channels[size_t(layer.to)];
 }
 
 /// Weights of the channels [from, from + count) of the inputs.
@@ -176,9 +154,8 @@ struct Unet::Data {
     dnnl::engine engine{dnnl::engine::kind::cpu, 0};
     dnnl::stream stream{engine};
     Shapes shapes;
-    Arena arena;
     memory arena_memory;
-    std::array<memory, kTensors> tensors;
+    std::vector<memory> tensors;
     struct Step {
         dnnl::primitive primitive;
         std::unordered_map<int, memory> arguments;
@@ -198,19 +175,18 @@ struct Unet::Data {
         return result;
     }
 
-    void add_pool(int from, int to) {
+    void add_pool(size_t from, size_t to) {
         dnnl::pooling_forward::desc const desc(
             dnnl::prop_kind::forward_inference, dnnl::algorithm::pooling_max,
-            tensors[size_t(from)].get_desc(), tensors[size_t(to)].get_desc(), {2, 2}, {2, 2},
-            {0, 0}, {0, 0});
+            tensors[from].get_desc(), tensors[to].get_desc(), {2, 2}, {2, 2}, {0, 0}, {0, 0});
         dnnl::pooling_forward::primitive_desc const primitive(desc, engine);
-        steps.push_back(
-            {dnnl::pooling_forward(primitive),
-             {{DNNL_ARG_SRC, tensors[size_t(from)]}, {DNNL_ARG_DST, tensors[size_t(to)]}}});
+        steps.push_back({dnnl::pooling_forward(primitive),
+                         {{DNNL_ARG_SRC, tensors[from]}, {DNNL_ARG_DST, tensors[to]}}});
     }
 
     /// `add`: to what is there already.
-    void add_convolution(int from, int to, Tensor const& weights, Tensor const& bias, bool add) {
+    void add_convolution(size_t from, size_t to, Tensor const& weights, Tensor const& bias,
+                         bool add) {
         dnnl::primitive_attr attributes;
         dnnl::post_ops after;
         if (add) after.append_sum();
@@ -219,34 +195,32 @@ struct Unet::Data {
         memory::desc const any(weights.dims, memory::data_type::f32, memory::format_tag::any);
         memory::desc const bias_desc(bias.dims, memory::data_type::f32, memory::format_tag::x);
         using Convolution = dnnl::convolution_forward;
-        auto const source = tensors[size_t(from)].get_desc(),
-                   target = tensors[size_t(to)].get_desc();
+        auto const source = tensors[from].get_desc(), target = tensors[to].get_desc();
         auto const kind = dnnl::prop_kind::forward_inference;
         auto const direct = dnnl::algorithm::convolution_direct;
         memory::dims const one{1, 1};
         Convolution::desc const desc(kind, direct, source, any, bias_desc, target, one, one, one);
         Convolution::primitive_desc const primitive(desc, attributes, engine);
         steps.push_back({Convolution(primitive),
-                         {{DNNL_ARG_SRC, tensors[size_t(from)]},
+                         {{DNNL_ARG_SRC, tensors[from]},
                           {DNNL_ARG_WEIGHTS, converted(weights, primitive.weights_desc())},
                           {DNNL_ARG_BIAS, converted(bias, bias_desc)},
-                          {DNNL_ARG_DST, tensors[size_t(to)]}}});
+                          {DNNL_ARG_DST, tensors[to]}}});
     }
 
     /// Without bias: oneDNN would take as much memory again for it, and the convolution that adds
     /// to this has it.
-    void add_enlarging(int from, int to, Tensor const& weights) {
+    void add_enlarging(size_t from, size_t to, Tensor const& weights) {
         memory::desc const any(weights.dims, memory::data_type::f32, memory::format_tag::any);
         using Deconvolution = dnnl::deconvolution_forward;
-        Deconvolution::desc const desc(dnnl::prop_kind::forward_inference,
-                                       dnnl::algorithm::deconvolution_direct,
-                                       tensors[size_t(from)].get_desc(), any,
-                                       tensors[size_t(to)].get_desc(), {2, 2}, {1, 1}, {1, 1});
+        Deconvolution::desc const desc(
+            dnnl::prop_kind::forward_inference, dnnl::algorithm::deconvolution_direct,
+            tensors[from].get_desc(), any, tensors[to].get_desc(), {2, 2}, {1, 1}, {1, 1});
         Deconvolution::primitive_desc const primitive(desc, engine);
         steps.push_back({Deconvolution(primitive),
-                         {{DNNL_ARG_SRC, tensors[size_t(from)]},
+                         {{DNNL_ARG_SRC, tensors[from]},
                           {DNNL_ARG_WEIGHTS, converted(weights, primitive.weights_desc())},
-                          {DNNL_ARG_DST, tensors[size_t(to)]}}});
+                          {DNNL_ARG_DST, tensors[to]}}});
     }
 };
 
@@ -262,7 +236,7 @@ LayerWeights find_layer(Weights const& all, std::string const& file, Layer const
     auto const w = all.find(name + ".weight"), b = all.find(name + ".bias");
     auto fail = [&](std::string const& what) {
         throw InputError({file}, "expected the weights of an Open Image Denoise network of base "
-                                 "size: " +
+                                 "or large size: " +
                                      what);
     };
     if (w == all.end() || b == all.end()) fail("there is no layer '" + name + "'");
@@ -274,54 +248,61 @@ LayerWeights find_layer(Weights const& all, std::string const& file, Layer const
 
 } // namespace
 
+UnetSize unet_size(Weights const& weights) {
+    return weights.contains("enc_conv1a.weight") ? UnetSize::large : UnetSize::base;
+}
+
 Unet::Unet(Weights const& weights, std::string const& name, int channels, int width, int height)
     : data_(std::make_unique<Data>()) {
     Data& d = *data_;
-    d.shapes = shapes_of(
-        channels, [&](Layer const& l) { return int(find_layer(weights, name, l).bias.dims[0]); });
-    for (Layer const& l : kLayers) {
+    Layers const layers = layers_of(unet_size(weights));
+    d.shapes = shapes_of(layers, channels, [&](Layer const& l) {
+        return int(find_layer(weights, name, l).bias.dims[0]);
+    });
+    for (size_t i = 0; i < layers.size(); ++i) {
+        Layer const& l = layers[i];
         if (!l.weights) continue;
         int64_t const found = find_layer(weights, name, l).weights.dims[1];
-        int64_t const expected = d.shapes[size_t(l.from)].channels +
-                                 (l.skip >= 0 ? d.shapes[size_t(l.skip)].channels : 0);
-        if (found != expected || d.shapes[kDec0].channels != 3)
+        int64_t const expected =
+            d.shapes[i].channels + (l.skip >= 0 ? d.shapes[size_t(l.skip)].channels : 0);
+        if (found != expected || d.shapes.back().channels != 3)
             throw InputError({name}, "expected a network with " + std::to_string(channels) +
                                          " inputs and 3 outputs; its layer '" + l.weights +
                                          "' has " + std::to_string(found) + " inputs, not " +
                                          std::to_string(expected));
     }
-    d.arena = plan(d.shapes, width, height);
+    Arena const arena = plan(layers, d.shapes, width, height);
     d.arena_memory =
-        memory({{int64_t(d.arena.size)}, memory::data_type::u8, memory::format_tag::x}, d.engine);
+        memory({{int64_t(arena.size)}, memory::data_type::u8, memory::format_tag::x}, d.engine);
     auto* const base = static_cast<char*>(d.arena_memory.get_data_handle());
-    for (size_t t = 0; t < kTensors; ++t) {
+    for (size_t t = 0; t < d.shapes.size(); ++t) {
         Shape const& s = d.shapes[t];
-        d.tensors[t] = memory({{1, s.channels, height >> s.level, width >> s.level},
-                               memory::data_type::f32,
-                               memory::format_tag::nhwc},
-                              d.engine, base + d.arena.offsets[t]);
+        d.tensors.emplace_back(memory::desc({1, s.channels, height >> s.level, width >> s.level},
+                                            memory::data_type::f32, memory::format_tag::nhwc),
+                               d.engine, base + arena.offsets[t]);
     }
-    for (Layer const& l : kLayers) {
+    for (size_t i = 0; i < layers.size(); ++i) {
+        Layer const& l = layers[i];
         if (!l.weights) {
-            d.add_pool(l.from, l.to);
+            d.add_pool(i, i + 1);
             continue;
         }
         auto const [w, b] = find_layer(weights, name, l);
         if (l.skip < 0) {
-            d.add_convolution(l.from, l.to, w, b, false);
+            d.add_convolution(i, i + 1, w, b, false);
             continue;
         }
-        int64_t const below = d.shapes[size_t(l.from)].channels;
-        d.add_enlarging(l.from, l.to, enlarging_kernel(input_slice(w, 0, below)));
-        d.add_convolution(l.skip, l.to, input_slice(w, below, w.dims[1] - below), b, true);
+        int64_t const below = d.shapes[i].channels;
+        d.add_enlarging(i, i + 1, enlarging_kernel(input_slice(w, 0, below)));
+        d.add_convolution(size_t(l.skip), i + 1, input_slice(w, below, w.dims[1] - below), b, true);
     }
 }
 
 Unet::~Unet() = default;
 
-float* Unet::input() { return static_cast<float*>(data_->tensors[kInput].get_data_handle()); }
+float* Unet::input() { return static_cast<float*>(data_->tensors.front().get_data_handle()); }
 float const* Unet::output() const {
-    return static_cast<float const*>(data_->tensors[kDec0].get_data_handle());
+    return static_cast<float const*>(data_->tensors.back().get_data_handle());
 }
 
 void Unet::run() {
@@ -330,10 +311,12 @@ void Unet::run() {
     data_->stream.wait();
 }
 
-size_t unet_memory(int channels, int width, int height) {
+size_t unet_memory(UnetSize size, int channels, int width, int height) {
     // Weights twice (as read, and as the layers like them), and what oneDNN takes for itself.
-    constexpr size_t kFixed = 48 << 20;
-    return plan(shapes_of(channels, published_channels), width, height).size + kFixed;
+    size_t const fixed = size_t(size == UnetSize::large ? 128 : 48) << 20;
+    Layers const layers = layers_of(size);
+    auto const published = [](Layer const& l) { return l.channels; };
+    return plan(layers, shapes_of(layers, channels, published), width, height).size + fixed;
 }
 
 } // namespace weft::post

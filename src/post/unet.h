@@ -1,9 +1,9 @@
-// The network of Intel Open Image Denoise, version 2 ("base" size), evaluated with oneDNN.
+// The networks of Intel Open Image Denoise, version 2, evaluated with oneDNN.
 //
-// A U-Net (Ronneberger et al. 2015; Chaitanya et al. 2017 for renderings) of sixteen 3x3
-// convolutions with ReLU: four times down by 2x2 maxima, four times up by repetition, where each
-// time the pixels of that size on the way down come in again. Its topology is fixed; the sizes of
-// its layers come from the weights.
+// A U-Net (Ronneberger et al. 2015; Chaitanya et al. 2017 for renderings) of 3x3 convolutions with
+// ReLU: four times down by 2x2 maxima, four times up by repetition, where each time the pixels of
+// that size on the way down come in again. There are two topologies, of sixteen convolutions
+// ("base") and of nineteen ("large"); the numbers of channels come from the weights.
 //
 // What the layers compute is left as it is, how is our own: a convolution of a picture that was
 // made larger by repetition is one transposed convolution with a 4x4 kernel (under half of the
@@ -20,8 +20,14 @@ namespace weft::post {
 
 /// Sizes of pictures must be multiples of this.
 inline constexpr int kUnetAlignment = 16;
-/// Pixels further than this from a pixel do not reach it.
-inline constexpr int kUnetReach = 96;
+
+enum class UnetSize { base, large };
+
+/// Which topology the names of the layers are of.
+UnetSize unet_size(Weights const& weights);
+
+/// Pixels further than this from a pixel do not reach it; a multiple of the alignment.
+constexpr int unet_reach(UnetSize size) { return size == UnetSize::large ? 112 : 96; }
 
 class Unet {
   public:
@@ -44,6 +50,6 @@ class Unet {
 };
 
 /// What such a network takes, weights and buffers, in bytes; roughly, and not less.
-size_t unet_memory(int channels, int width, int height);
+size_t unet_memory(UnetSize size, int channels, int width, int height);
 
 } // namespace weft::post

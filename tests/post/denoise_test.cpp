@@ -82,8 +82,9 @@ TEST_F(Backends, WhatIsMissingIsExplained) {
     options.weights = "/nowhere";
     std::string const network = message({&color, &color, &color}, options);
     EXPECT_EQ(
-        network.find("the backend 'network' expects the file rt_hdr_alb_nrm.tza in /nowhere, " +
-                     folder.path()),
+        network.find(
+            "the backend 'network' expects the file rt_hdr_calb_cnrm_large.tza in /nowhere, " +
+            folder.path()),
         0u)
         << network;
     EXPECT_NE(network.find("found none: tools/setup denoise downloads it"), std::string::npos);

@@ -58,7 +58,8 @@ TEST(Network, OfIdentityGivesThePictureBack) {
         for (int x = 20; x < 30; ++x)
             for (int c = 0; c < 3; ++c) color.at(x, y, c) = 1000;
     image::Image const other = constant_picture(131, 77, 0.5f);
-    expect_near(denoise_network({&color, &other, &other}, weights.path, 1024), color, 1e-4);
+    expect_near(denoise_network({&color, &other, &other}, {weights.path, "", ""}, 1024), color,
+                1e-4);
 
     // What is no light becomes black, what is beyond the range its end.
     image::Image odd = color;
@@ -69,7 +70,7 @@ TEST(Network, OfIdentityGivesThePictureBack) {
     odd.at(5, 6, 2) = infinity;
     odd.at(7, 8, 0) = -5;
     odd.at(9, 10, 1) = 3e38f;
-    image::Image const result = denoise_network({&odd, &odd, &odd}, weights.path, 1024);
+    image::Image const result = denoise_network({&odd, &odd, &odd}, {weights.path, "", ""}, 1024);
     for (float x : result.pixels) EXPECT_TRUE(std::isfinite(x) && x >= 0);
     EXPECT_EQ(result.at(1, 2, 0), 0);
     EXPECT_EQ(result.at(3, 4, 1), 0);
@@ -81,17 +82,19 @@ TEST(Network, OfIdentityGivesThePictureBack) {
 TEST(Network, TilesDoNotShow) {
     WeightsOnDisk const weights(random_weights(3, 5));
     image::Image const color = noisy_picture(900, 700);
-    auto result = [&](int memory) { return denoise_network({&color}, weights.path, memory); };
-    auto const tiles = tile_count(color.width, color.height, 3, 120);
+    auto result = [&](int memory) {
+        return denoise_network({&color}, {weights.path, "", ""}, memory);
+    };
+    auto const tiles = tile_count(UnetSize::base, color.width, color.height, 3, 120);
     ASSERT_GT(tiles, 3);
-    ASSERT_EQ(tile_count(color.width, color.height, 3, 4096), 1);
+    ASSERT_EQ(tile_count(UnetSize::base, color.width, color.height, 3, 4096), 1);
     expect_near(result(120), result(4096), 1e-4);
 }
 
 TEST(Network, SaysWhereMemoryIsShort) {
     WeightsOnDisk const weights(random_weights(3, 5));
     image::Image const color = noisy_picture(900, 700);
-    EXPECT_THROW(denoise_network({&color}, weights.path, 10), InputError);
+    EXPECT_THROW(denoise_network({&color}, {weights.path, "", ""}, 10), InputError);
 }
 
 /// OpenMP's threads, which oneDNN uses; the library is there, since oneDNN is.
@@ -109,7 +112,7 @@ TEST(Network, DoesNotDependOnThreads) {
         use_threads(threads);
         tbb::global_control const limit(tbb::global_control::max_allowed_parallelism,
                                         size_t(threads));
-        image::Image const result = denoise_network({&color}, weights.path, 1024);
+        image::Image const result = denoise_network({&color}, {weights.path, "", ""}, 1024);
         if (first.pixels.empty()) first = result;
         EXPECT_EQ(first.pixels, result.pixels) << threads;
     }
@@ -117,13 +120,14 @@ TEST(Network, DoesNotDependOnThreads) {
 
 // --- with the published weights
 
-/// The path of the weights for `input`, or "".
-std::string published(DenoiseInput const& input) {
-    return find_weights(weights_file(input), weight_folders());
+/// The paths of the weights for `input`, if they are all there.
+std::optional<NetworkWeights> published(DenoiseInput const& input,
+                                        Quality quality = Quality::high) {
+    return find_weights(weights_files(input, quality), weight_folders());
 }
 
 #define PUBLISHED_OR_SKIP(input)                                                                   \
-    if (published(input).empty())                                                                  \
+    if (!published(input))                                                                         \
     GTEST_SKIP() << "no published weights here: tools/setup denoise fetches them"
 
 TEST(PublishedNetwork, TilesDoNotShow) {
@@ -131,9 +135,9 @@ TEST(PublishedNetwork, TilesDoNotShow) {
     image::Image const albedo = noisy_picture(520, 430, 2), normal = noisy_picture(520, 430, 3);
     DenoiseInput const input{&color, &albedo, &normal};
     PUBLISHED_OR_SKIP(input);
-    ASSERT_GT(tile_count(color.width, color.height, 9, 140), 1);
-    expect_near(denoise_network(input, published(input), 140),
-                denoise_network(input, published(input), 4096), 1e-4);
+    ASSERT_GT(tile_count(UnetSize::large, color.width, color.height, 9, 256), 1);
+    expect_near(denoise_network(input, *published(input), 256),
+                denoise_network(input, *published(input), 4096), 1e-4);
 }
 
 TEST(PublishedNetwork, KeepsConstants) {
@@ -143,7 +147,7 @@ TEST(PublishedNetwork, KeepsConstants) {
         for (DenoiseInput const& input : {DenoiseInput{&color}, DenoiseInput{&color, &half},
                                           DenoiseInput{&color, &half, &half}}) {
             PUBLISHED_OR_SKIP(input);
-            image::Image const result = denoise_network(input, published(input), 1024);
+            image::Image const result = denoise_network(input, *published(input), 1024);
             for (float x : result.pixels) ASSERT_EQ(x, value);
         }
     }
@@ -157,7 +161,7 @@ TEST(PublishedNetwork, KeepsLightsBright) {
             for (int c = 0; c < 3; ++c) before += double(color.at(x, y, c) = 500);
     DenoiseInput const input{&color};
     PUBLISHED_OR_SKIP(input);
-    image::Image const result = denoise_network(input, published(input), 1024);
+    image::Image const result = denoise_network(input, *published(input), 1024);
     for (int y = 40; y < 60; ++y)
         for (int x = 70; x < 100; ++x)
             for (int c = 0; c < 3; ++c) after += double(result.at(x, y, c));
@@ -169,7 +173,7 @@ TEST(PublishedNetwork, GivesFiniteLightForAnything) {
                        normal = unfit_picture(96, 80, 5);
     DenoiseInput const input{&color, &albedo, &normal};
     PUBLISHED_OR_SKIP(input);
-    for (float x : denoise_network(input, published(input), 1024).pixels)
+    for (float x : denoise_network(input, *published(input), 1024).pixels)
         ASSERT_TRUE(std::isfinite(x) && x >= 0);
 }
 

@@ -42,7 +42,8 @@ TEST(Oidn, IsCalledAsItsInterfaceSays) {
         OidnLibrary const library({"libnone.so.9", library_path(kind)});
         ASSERT_TRUE(library) << library.problem();
         take_calls(library);
-        image::Image const result = denoise_oidn(library, {&wide, &wide, &normal}, 300);
+        image::Image const result =
+            denoise_oidn(library, {&wide, &wide, &normal}, Quality::balanced, 300);
         EXPECT_EQ(take_calls(library), "device 1\ncommit device\nfilter RT\n"
                                        "color 3 7x5 0 12 0\nalbedo 3 7x5 0 16 0\n"
                                        "normal 3 7x5 0 12 0\noutput 3 7x5 0 12 0\n"
@@ -58,11 +59,25 @@ TEST(Oidn, IsCalledAsItsInterfaceSays) {
     }
 }
 
+TEST(Oidn, DenoisesItsGuidesFirst) {
+    image::Image const color = noisy_picture(7, 5);
+    OidnLibrary const library({library_path("newer")});
+    take_calls(library);
+    denoise_oidn(library, {&color, &color, &color}, Quality::high, 300);
+    std::string const run = "maxMemoryMB 300\ncommit\nexecute\nrelease filter\n",
+                      size = " 3 7x5 0 12 0\n";
+    EXPECT_EQ(take_calls(library), "device 1\ncommit device\nfilter RT\nalbedo" + size + "output" +
+                                       size + run + "filter RT\nnormal" + size + "output" + size +
+                                       run + "filter RT\ncolor" + size + "albedo" + size +
+                                       "normal" + size + "output" + size + "hdr 1\ncleanAux 1\n" +
+                                       run + "release device\n");
+}
+
 TEST(Oidn, TakesNormalsOnlyBesideAlbedo) {
     image::Image const color = noisy_picture(7, 5);
     OidnLibrary const library({library_path("newer")});
     take_calls(library);
-    denoise_oidn(library, {&color, nullptr, &color}, 300);
+    denoise_oidn(library, {&color, nullptr, &color}, Quality::high, 300);
     EXPECT_EQ(take_calls(library).find("normal"), std::string::npos);
 }
 
@@ -74,7 +89,7 @@ TEST(Oidn, TellsItsErrors) {
     for (char const* step : {"device", "commit-device", "commit", "execute"}) {
         std::ofstream(folder / "step") << step;
         try {
-            denoise_oidn(library, {&color}, 300);
+            denoise_oidn(library, {&color}, Quality::high, 300);
             ADD_FAILURE() << "no error at " << step;
         } catch (InputError const& e) {
             EXPECT_EQ(e.what(), "Open Image Denoise: cannot do " + std::string(step));

@@ -8,6 +8,7 @@
 
 #include "base/hash.h"
 #include "image/image.h"
+#include "post/unet.h"
 #include "post/weights.h"
 
 namespace weft::testing {
@@ -98,8 +99,28 @@ struct LayerShape {
     int out, in;
 };
 
-/// The layers of a network of this shape with fewer channels, for `channels` inputs.
-inline std::vector<LayerShape> small_network(int channels) {
+/// The layers of a network of this size with fewer channels, for `channels` inputs.
+inline std::vector<LayerShape> small_network(int channels, post::UnetSize size) {
+    if (size == post::UnetSize::large)
+        return {{"enc_conv1a", 4, channels},
+                {"enc_conv1b", 4, 4},
+                {"enc_conv2a", 5, 4},
+                {"enc_conv2b", 5, 5},
+                {"enc_conv3a", 6, 5},
+                {"enc_conv3b", 6, 6},
+                {"enc_conv4a", 7, 6},
+                {"enc_conv4b", 7, 7},
+                {"enc_conv5a", 8, 7},
+                {"enc_conv5b", 8, 8},
+                {"dec_conv4a", 9, 8 + 6},
+                {"dec_conv4b", 9, 9},
+                {"dec_conv3a", 8, 9 + 5},
+                {"dec_conv3b", 8, 8},
+                {"dec_conv2a", 6, 8 + 4},
+                {"dec_conv2b", 6, 6},
+                {"dec_conv1a", 6, 6 + channels},
+                {"dec_conv1b", 5, 6},
+                {"dec_conv1c", 3, 5}};
     return {{"enc_conv0", 4, channels}, {"enc_conv1", 4, 4},
             {"enc_conv2", 5, 4},        {"enc_conv3", 6, 5},
             {"enc_conv4", 7, 6},        {"enc_conv5a", 8, 7},
@@ -114,9 +135,10 @@ inline std::vector<LayerShape> small_network(int channels) {
 inline post::Weights
 make_weights(int channels,
              std::function<float(LayerShape const&, int out, int in, int dy, int dx)> const& value,
-             std::function<float(LayerShape const&, int out)> const& bias = {}) {
+             std::function<float(LayerShape const&, int out)> const& bias = {},
+             post::UnetSize size = post::UnetSize::base) {
     post::Weights weights;
-    for (LayerShape const& layer : small_network(channels)) {
+    for (LayerShape const& layer : small_network(channels, size)) {
         post::Tensor w{{layer.out, layer.in, 3, 3}, {}}, b{{layer.out}, {}};
         for (int o = 0; o < layer.out; ++o) {
             for (int i = 0; i < layer.in; ++i)
@@ -131,7 +153,8 @@ make_weights(int channels,
 }
 
 /// Values of both signs that keep the size of what goes through, all layers in use.
-inline post::Weights random_weights(int channels, uint64_t seed) {
+inline post::Weights random_weights(int channels, uint64_t seed,
+                                    post::UnetSize size = post::UnetSize::base) {
     Rng rng(seed);
     auto number = [&] { return float(rng.next_uint()) / 2147483648.f - 1; };
     return make_weights(
@@ -139,7 +162,7 @@ inline post::Weights random_weights(int channels, uint64_t seed) {
         [&](LayerShape const& layer, int, int, int, int) {
             return number() * std::sqrt(2.f / float(layer.in)) * 0.6f;
         },
-        [&](LayerShape const&, int) { return 0.1f * number(); });
+        [&](LayerShape const&, int) { return 0.1f * number(); }, size);
 }
 
 /// A network whose output is its first three inputs.

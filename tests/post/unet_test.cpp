@@ -72,23 +72,30 @@ Planes enlarged(Planes const& below, Planes const& skip) {
 }
 
 Planes evaluate(post::Weights const& w, Planes const& input) {
-    Planes const p1 = pooled(convolved(w, "enc_conv1", convolved(w, "enc_conv0", input)));
-    Planes const p2 = pooled(convolved(w, "enc_conv2", p1));
-    Planes const p3 = pooled(convolved(w, "enc_conv3", p2));
-    Planes const p4 = pooled(convolved(w, "enc_conv4", p3));
+    bool const large = post::unet_size(w) == post::UnetSize::large;
+    auto level = [&](std::string const& name, Planes const& in) {
+        return pooled(large ? convolved(w, name + "b", convolved(w, name + "a", in))
+                            : convolved(w, name, in));
+    };
+    Planes const p1 = level("enc_conv1", large ? input : convolved(w, "enc_conv0", input));
+    Planes const p2 = level("enc_conv2", p1);
+    Planes const p3 = level("enc_conv3", p2);
+    Planes const p4 = level("enc_conv4", p3);
     Planes x = convolved(w, "enc_conv5b", convolved(w, "enc_conv5a", p4));
     x = convolved(w, "dec_conv4b", convolved(w, "dec_conv4a", enlarged(x, p3)));
     x = convolved(w, "dec_conv3b", convolved(w, "dec_conv3a", enlarged(x, p2)));
     x = convolved(w, "dec_conv2b", convolved(w, "dec_conv2a", enlarged(x, p1)));
     x = convolved(w, "dec_conv1b", convolved(w, "dec_conv1a", enlarged(x, input)));
-    return convolved(w, "dec_conv0", x);
+    return convolved(w, large ? "dec_conv1c" : "dec_conv0", x);
 }
 
-TEST(Unet, ComputesWhatItsLayersSay) {
+class UnetOfSize : public ::testing::TestWithParam<post::UnetSize> {};
+
+TEST_P(UnetOfSize, ComputesWhatItsLayersSay) {
     int const width = 48, height = 32;
     for (int channels : {3, 6, 9}) {
         SCOPED_TRACE(channels);
-        auto const weights = random_weights(channels, uint64_t(channels));
+        auto const weights = random_weights(channels, uint64_t(channels), GetParam());
         post::Unet network(weights, "test", channels, width, height);
         Planes input = planes(channels, width, height);
         Rng rng(7);
@@ -114,6 +121,26 @@ TEST(Unet, ComputesWhatItsLayersSay) {
     }
 }
 
+INSTANTIATE_TEST_SUITE_P(Sizes, UnetOfSize,
+                         ::testing::Values(post::UnetSize::base, post::UnetSize::large));
+
+TEST_P(UnetOfSize, SeesNoFurtherThanItsReach) {
+    int const reach = post::unet_reach(GetParam()), width = 4 * reach;
+    auto const weights = random_weights(3, 11, GetParam());
+    post::Unet network(weights, "test", 3, width, post::kUnetAlignment);
+    auto row = [&](float first) { // whose first 16 pixels are `first`
+        for (int i = 0; i < 3 * width * post::kUnetAlignment; ++i)
+            network.input()[i] = (i / 3) % width < 16 ? first : 0.5f;
+        network.run();
+        return std::vector<float>(network.output(), network.output() + 3 * width);
+    };
+    auto const a = row(0), b = row(1);
+    int furthest = 0;
+    for (int i = 0; i < 3 * width; ++i)
+        if (a[size_t(i)] != b[size_t(i)]) furthest = i / 3 - 15;
+    EXPECT_LE(furthest, reach);
+}
+
 TEST(Unet, RefusesOtherNetworks) {
     auto message = [](post::Weights const& weights, int channels) -> std::string {
         try {
@@ -130,15 +157,14 @@ TEST(Unet, RefusesOtherNetworks) {
               "inputs, not 9");
     auto lacking = weights;
     lacking.erase("dec_conv2b.bias");
-    EXPECT_EQ(message(lacking, 6),
-              "w.tza: expected the weights of an Open Image Denoise network of base size: there is "
-              "no layer 'dec_conv2b'");
+    EXPECT_EQ(message(lacking, 6), "w.tza: expected the weights of an Open Image Denoise network "
+                                   "of base or large size: there is "
+                                   "no layer 'dec_conv2b'");
     auto other = weights;
     other["enc_conv3.weight"].dims = {6, 5, 9};
-    EXPECT_EQ(
-        message(other, 6),
-        "w.tza: expected the weights of an Open Image Denoise network of base size: the layer "
-        "'enc_conv3' has another shape");
+    EXPECT_EQ(message(other, 6), "w.tza: expected the weights of an Open Image Denoise network of "
+                                 "base or large size: the layer "
+                                 "'enc_conv3' has another shape");
 }
 
 } // namespace

@@ -23,7 +23,7 @@ struct Arguments {
     std::string input, output;
     std::string albedo, normal;
     std::vector<std::string> parts;
-    std::string backend = "auto";
+    std::string backend = "auto", quality = "high";
     post::DenoiseOptions options;
 };
 
@@ -127,6 +127,7 @@ void write(Arguments const& a, image::Image const& image, post::Backend backend)
 int run(Arguments& a) {
     image::check_writable(a.output);
     schema::TextForm<post::Backend>::read(a.backend, a.options.backend);
+    schema::TextForm<post::Quality>::read(a.quality, a.options.quality);
     image::Image image = read_linear(a.input);
     auto const colors = colors_of(a.input, image);
     image::Image const color = post::take_channels(image, colors);
@@ -144,19 +145,25 @@ int run(Arguments& a) {
 
     auto const start = std::chrono::steady_clock::now();
     post::Backend backend;
+    bool lacks_weights;
     if (parts.empty()) {
         post::Denoised const result = post::denoise(input, a.options);
         backend = result.backend;
+        lacks_weights = result.lacks_weights;
         post::put_channels(result.image, colors, image);
     } else {
         post::DenoisedParts const result = post::denoise_parts(parts, input, a.options);
         backend = result.backend;
+        lacks_weights = result.lacks_weights;
         post::put_channels(result.whole, colors, image);
         for (size_t i = 0; i < parts.size(); ++i)
             post::put_channels(result.parts[i], layer_of(a.input, image, a.parts[i]), image);
     }
     std::chrono::duration<double> const seconds = std::chrono::steady_clock::now() - start;
     write(a, image, backend);
+    if (lacks_weights)
+        fmt::print(stderr, "warning: the network's weights for high quality are not there; this is "
+                           "balanced quality: tools/setup denoise downloads them\n");
     fmt::print(stderr, "denoised by {}{}{} in {}\n", post::backend_name(backend),
                input.albedo ? ", with albedo" : "", input.normal ? ", with normals" : "",
                duration_text(seconds.count()));
@@ -189,6 +196,10 @@ void add_denoise_command(CLI::App& app, Command& chosen) {
         ->delimiter(',');
     c->add_option("--backend", a->backend, "What denoises; `weft help denoising` says more")
         ->check(CLI::IsMember({"auto", "oidn", "network", "nlm"}));
+    c->add_option("--quality", a->quality,
+                  "high: guides are denoised first, and the network is the larger one; balanced: a "
+                  "quarter of the time")
+        ->check(CLI::IsMember({"high", "balanced"}));
     c->add_option("--memory", a->options.memory, "Memory to take beside the pictures, in MB")
         ->check(CLI::Range(256, 1048576));
     c->add_option("--weights", a->options.weights, "Folder with the network's weights")

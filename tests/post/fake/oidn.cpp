@@ -1,7 +1,7 @@
 // A library with the C interface of Open Image Denoise, which keeps a record of its calls and, for
-// denoising, takes half of the colour. WEFT_FAKE_OLDER: with the names of version 1.
-// WEFT_FAKE_LACKING: without one function. Where the file named by $WEFT_FAKE_OIDN_ERROR exists,
-// the step that is its content fails.
+// denoising, takes half of the colour (or of the guide where there is none). WEFT_FAKE_OLDER: with
+// the names of version 1. WEFT_FAKE_LACKING: without one function. Where the file named by
+// $WEFT_FAKE_OIDN_ERROR exists, the step that is its content fails.
 #include <cstddef>
 #include <cstdlib>
 #include <fstream>
@@ -86,7 +86,10 @@ void oidnCommitFilter(void*) {
 void oidnExecuteFilter(void*) {
     calls << "execute\n";
     step("execute");
-    Image const &from = images["color"], &to = images["output"];
+    char const* const name = images.contains("color")    ? "color"
+                             : images.contains("albedo") ? "albedo"
+                                                         : "normal";
+    Image const &from = images[name], &to = images["output"];
     for (size_t i = 0; i < from.width * from.height; ++i)
         for (size_t c = 0; c < 3; ++c)
             to.data[i * to.stride + c] = from.data[i * from.stride + c] / 2;
