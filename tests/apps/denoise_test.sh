@@ -31,8 +31,32 @@ done
 mkdir folder
 expect 0 "$weft" render s.xml -o folder --progress none
 cmp -s clean.exr folder/clean.exr || fail "clean.exr is not the same again"
-expect 2 "$weft" render s.xml -o one.exr
-has "-o expects an existing folder, since the scene renders several pictures" err
+
+# A file gets the one picture that nothing reads any further, and the others go nowhere.
+mkdir alone
+expect 0 "$weft" render s.xml -o alone/one.exr --progress none
+cmp -s clean.exr alone/one.exr || fail "one.exr is not the last picture"
+[ "$(ls alone)" = one.exr ] || fail "more than the last picture is written: $(ls alone)"
+expect 0 "$weft" render s.xml -o alone/one.png -o folder --progress none
+[ -s alone/one.png ] || fail "one.png is missing"
+expect 2 "$weft" render s.xml -o alone/one.png --aov depth
+has "for the picture of a postprocess, which has none" err
+sed '/<postprocess/,$d' s.xml >several.xml
+expect 2 "$weft" render several.xml -o one.exr
+has "-o expects an existing folder, since the scene renders several pictures ('noisy', 'albedo', 'normal'); found 'one.exr'" err
+
+# Pictures of postprocesses are tests where they have a reference.
+mkdir tests
+cp s.xml tests
+expect 2 "$weft" test tests/s.xml
+has "expected a <test> or tests/clean_ref.exr, found none" err
+cp clean.exr tests/clean_ref.exr
+expect 0 "$weft" test tests/s.xml
+has "1 passed, 0 failed" out
+[ -s tests/clean_test.exr ] || fail "clean_test.exr is missing"
+cp normal.exr tests/clean_ref.exr
+expect 1 "$weft" test tests/s.xml
+has "0 passed, 1 failed" out
 
 # The command does the same to the files.
 expect 0 "$weft" denoise noisy.exr --albedo albedo.exr --normal normal.exr --backend nlm -o again.exr

@@ -1,4 +1,5 @@
 // weft render SCENE: reads, commits, renders, writes.
+#include <filesystem>
 #include <fmt/format.h>
 #include <map>
 #include <memory>
@@ -54,31 +55,66 @@ std::map<int32_t, post::DisplayChain> display_chains(RenderArguments const& a,
     return chains;
 }
 
+/// The picture that a file named by -o is for.
+struct Final {
+    int32_t image = -1; ///< ImageId::index; -1: that of an integrator without an <image>
+    bool known = false;
+};
+
+/// Where -o names files, the one picture that nothing reads any further. Throws InputError where
+/// there are several.
+Final final_picture(RenderArguments const& a, io::SceneFile const& file, bool whole) {
+    std::vector<std::pair<int32_t, std::string>> finals;
+    for (io::RenderJob const& job : file.jobs)
+        if (!whole || !is_read(job.target.image.index, file.postprocesses.begin(), file))
+            finals.emplace_back(job.target.image.index, job.image_name);
+    for (auto job = file.postprocesses.begin(); whole && job != file.postprocesses.end(); ++job) {
+        int32_t const output = scene::pictures_of(job->postprocess).output.index;
+        if (!is_read(output, job + 1, file))
+            finals.emplace_back(output, output_of(file, *job).name);
+    }
+    if (finals.size() == 1) return {finals.front().first, true};
+    std::string names;
+    for (auto const& [image, name] : finals)
+        names += (names.empty() ? "'" : ", '") + (name.empty() ? "without a name" : name) + "'";
+    for (std::string const& output : a.outputs)
+        if (!std::filesystem::is_directory(output))
+            throw InputError(
+                "-o expects an existing folder, since the scene renders several pictures (" + names +
+                "); found '" + output + "'");
+    return {};
+}
+
 /// Integrators and postprocesses in the order of the file.
 int run_file(RenderArguments& a, io::SceneFile const& file, ProgressLine& progress) {
     bool const only_picture = file.jobs.size() + file.postprocesses.size() == 1;
     auto const chains = display_chains(a, file);
     bool const whole = a.options.part.is_whole();
+    Final const final = final_picture(a, file, whole);
+    auto const is_final = [&](int32_t image) { return final.known && final.image == image; };
+    auto const paths_of = [&](io::PostprocessJob const& job) {
+        int32_t const output = scene::pictures_of(job.postprocess).output.index;
+        return output_paths(a, output_of(file, job), is_final(output));
+    };
     if (!whole && !file.postprocesses.empty())
         fmt::print(stderr, "warning: postprocesses need the whole picture and are left out\n");
     for (io::PostprocessJob const& job : file.postprocesses)
-        for (std::string const& path : output_paths(a, output_of(file, job), only_picture))
+        for (std::string const& path : paths_of(job))
             if (whole) image::check_writable(path);
     post::Pictures pictures;
     auto next = file.postprocesses.begin();
     for (size_t i = 0; i < file.jobs.size(); ++i) {
         post::Picture made;
         int32_t const image = file.jobs[i].target.image.index;
-        int const code = render_job(a, file.jobs[i], only_picture, *file.textures, chains.at(image),
-                                    progress, made);
+        int const code = render_job(a, file.jobs[i], is_final(image), only_picture, *file.textures,
+                                    chains.at(image), progress, made);
         if (code != kDone) return code;
         if (!whole) continue;
         pictures[image] = std::move(made);
         for (; next != file.postprocesses.end() && next->jobs_before == i + 1; ++next) {
             post::Picture result = post::run(*next, pictures);
             int32_t const output = scene::pictures_of(next->postprocess).output.index;
-            write_picture(output_paths(a, output_of(file, *next), only_picture), result,
-                          chains.at(output));
+            write_picture(paths_of(*next), result, chains.at(output));
             pictures[output] = std::move(result);
         }
         std::erase_if(pictures, [&](auto const& p) { return !is_read(p.first, next, file); });
@@ -125,7 +161,8 @@ void add_render_command(CLI::App& app, Command& chosen) {
         ->type_name("SCENE");
     c->add_option(
          "-o,--output", a->outputs,
-         "Picture to write: .exr, .hdr, .png, .jpg, .tif, or a folder; may be given several times")
+         "Picture to write: .exr, .hdr, .png, .jpg, .tif, or a folder for all that the scene "
+         "makes; may be given several times")
         ->type_name("OUT")
         ->take_all();
     c->add_option("--spp", a->options.spp, "Samples per pixel, instead of the scene's")

@@ -73,8 +73,10 @@ void check_aovs(RenderArguments const& a, io::RenderJob const& job,
     bool const wanted = !a.options.aovs.empty() || !session::wanted_aovs(job.integrator).empty();
     if (!wanted || std::any_of(paths.begin(), paths.end(), image::is_exr)) return;
     if (!a.options.aovs.empty())
-        throw InputError("--aov expects an output that can hold further channels (.exr), found '" +
-                         paths.front() + "'");
+        throw InputError("--aov expects an output that can hold further channels (.exr), found " +
+                         (paths.empty() ? "'" + a.outputs.front() +
+                                              "' for the picture of a postprocess, which has none"
+                                        : "'" + paths.front() + "'"));
     fmt::print(stderr, "warning: the AOVs that the scene asks for are not written: only .exr files "
                        "hold them\n");
 }
@@ -142,6 +144,10 @@ int finish(session::RenderOptions const& options, std::vector<std::string> const
                    whole ? "every pixel had a sample" : "the part was done");
         return kInterrupted;
     }
+    if (result.cancelled && paths.empty()) {
+        fmt::print(stderr, "stopped before the postprocesses: no file is written\n");
+        return kInterrupted;
+    }
     progress.phase("write");
     if (whole) {
         image::ExrHeader const header = picture_header(result, job, world, options.seed);
@@ -180,29 +186,26 @@ session::Part parse_part(std::string const& shard, std::string const& samples) {
 }
 
 std::vector<std::string> output_paths(RenderArguments const& a, io::PictureName const& picture,
-                                      bool only_picture) {
-    std::string const stem =
-        picture.name.empty() ? fs::path(a.scene).stem().string() : picture.name;
-    if (a.outputs.empty())
-        return {(fs::path(picture.folder) / (stem + part_extension(a.options.part))).string()};
+                                      bool final) {
+    std::string const name =
+        (picture.name.empty() ? fs::path(a.scene).stem().string() : picture.name) +
+        part_extension(a.options.part);
+    if (a.outputs.empty()) return {(fs::path(picture.folder) / name).string()};
     std::vector<std::string> paths;
-    for (std::string const& output : a.outputs) {
+    for (std::string const& output : a.outputs)
         if (fs::is_directory(output))
-            paths.push_back((fs::path(output) / (stem + part_extension(a.options.part))).string());
-        else if (only_picture)
+            paths.push_back((fs::path(output) / name).string());
+        else if (final)
             paths.push_back(output);
-        else
-            throw InputError(
-                "-o expects an existing folder, since the scene renders several pictures; found '" +
-                output + "'");
-    }
     return paths;
 }
 
-int render_job(RenderArguments const& a, io::RenderJob const& job, bool only_picture,
+int render_job(RenderArguments const& a, io::RenderJob const& job, bool final, bool only_picture,
                image::TextureCache const& textures, post::DisplayChain const& chain,
                ProgressLine& progress, post::Picture& made) {
-    auto const paths = output_paths(a, {job.image_name, job.folder, {}, {}}, only_picture);
+    auto const paths = output_paths(a, {job.image_name, job.folder, {}, {}}, final);
+    // What stands beside a picture is named after it, written or not.
+    std::string const& main_path = paths.empty() ? a.outputs.front() : paths.front();
     check_outputs(paths, a.options.part);
     check_aovs(a, job, paths);
     check_part(a, job);
@@ -222,8 +225,7 @@ int render_job(RenderArguments const& a, io::RenderJob const& job, bool only_pic
         if (!only_picture && !a.checkpoint.file.empty())
             throw InputError("--checkpoint-file expects a scene with one picture; --checkpoint "
                              "names a file for each");
-        checkpoint.emplace(a.checkpoint, paths.front(),
-                           session::starting_state(*world, job, options));
+        checkpoint.emplace(a.checkpoint, main_path, session::starting_state(*world, job, options));
         options.resume = checkpoint->found();
         options.watchers.push_back(checkpoint->watcher());
     }
@@ -234,7 +236,7 @@ int render_job(RenderArguments const& a, io::RenderJob const& job, bool only_pic
     }
     std::optional<TevClient> tev;
     if (!a.tev.empty()) {
-        tev.emplace(a.tev, paths.front());
+        tev.emplace(a.tev, main_path);
         options.watchers.push_back(tev->watcher());
     }
     progress.phase("render");

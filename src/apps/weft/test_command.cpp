@@ -1,4 +1,5 @@
-// weft test FILE...: runs lightwave's <test> files.
+// weft test FILE...: runs lightwave's <test> files, and compares pictures of postprocesses with
+// their references, NAME_ref.exr, where there are such.
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include "apps/weft/texture_options.h"
 #include "image/compare.h"
 #include "image/write.h"
+#include "post/run.h"
 #include "session/render.h"
 
 namespace weft::apps {
@@ -17,48 +19,106 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Renders one test and prints its verdict; whether it passed.
-bool run_test(io::RenderJob const& job, session::RenderOptions const& options) {
-    auto const path = [&](char const* suffix) {
-        return (fs::path(job.folder) / (job.image_name + suffix)).string();
-    };
-    image::check_writable(path("_test.exr"));
-    image::Image const reference = image::read_image(path("_ref.exr"));
+/// NAME_test.exr or NAME_ref.exr beside the scene.
+std::string path_of(std::string const& folder, std::string const& name, char const* suffix) {
+    return (fs::path(folder) / (name + suffix)).string();
+}
+
+/// How many tests of a file came out in which way.
+struct Tally {
+    int passed = 0, failed = 0;
+};
+
+/// Writes the picture of a test, compares it and prints the verdict.
+void judge(std::string const& folder, std::string const& name, image::Image const& picture,
+           scene::ImageTest const& limits, double seconds, Tally& tally) {
+    image::Image const reference = image::read_image(path_of(folder, name, "_ref.exr"));
+    image::write_exr(path_of(folder, name, "_test.exr"), picture);
+    image::Difference const d = image::compare(picture, reference);
+    bool const passed =
+        d.mae <= double(limits.mae) && std::abs(d.me) <= double(limits.me) && d.non_finite == 0;
+    fmt::print("{}  {:<32} MAE {:.3e} (<= {:.1e})  ME {:+.3e} (<= {:.1e}){}  {:.1f} s\n",
+               passed ? "pass" : "FAIL", name, d.mae, limits.mae, d.me, limits.me,
+               d.non_finite ? fmt::format("  {} values not finite", d.non_finite) : "", seconds);
+    std::fflush(stdout);
+    ++(passed ? tally.passed : tally.failed);
+}
+
+void run_test(io::RenderJob const& job, session::RenderOptions const& options, Tally& tally) {
+    image::check_writable(path_of(job.folder, job.image_name, "_test.exr"));
+    image::read_image(path_of(job.folder, job.image_name, "_ref.exr"));
     auto const world = commit_world(job);
     session::RenderResult const result = session::render(*world, job, options);
-    image::write_exr(path("_test.exr"), result.image);
-    image::Difference const d = image::compare(result.image, reference);
-    bool const passed = d.mae <= double(job.test->mae) && std::abs(d.me) <= double(job.test->me) &&
-                        d.non_finite == 0;
-    fmt::print("{}  {:<32} MAE {:.3e} (<= {:.1e})  ME {:+.3e} (<= {:.1e}){}  {:.1f} s\n",
-               passed ? "pass" : "FAIL", job.image_name, d.mae, job.test->mae, d.me, job.test->me,
-               d.non_finite ? fmt::format("  {} values not finite", d.non_finite) : "",
-               result.seconds);
-    std::fflush(stdout);
-    return passed;
+    judge(job.folder, job.image_name, result.image, *job.test, result.seconds, tally);
+}
+
+/// Whether the picture of a postprocess has a reference, and so is a test.
+bool is_tested(io::PictureName const& picture) {
+    return fs::exists(path_of(picture.folder, picture.name, "_ref.exr"));
+}
+
+/// Runs the file's integrators and postprocesses, and judges the pictures that have a reference.
+void run_postprocess_tests(io::SceneFile const& file, session::RenderOptions const& options,
+                           Tally& tally) {
+    post::Pictures pictures;
+    auto next = file.postprocesses.begin();
+    double seconds = 0;
+    for (size_t i = 0; i < file.jobs.size(); ++i) {
+        io::RenderJob const& job = file.jobs[i];
+        if (!job.test) {
+            auto const world = commit_world(job);
+            session::RenderResult result = session::render(*world, job, options);
+            seconds += result.seconds;
+            pictures[job.target.image.index].image = std::move(result.image);
+        }
+        for (; next != file.postprocesses.end() && next->jobs_before == i + 1; ++next) {
+            int32_t const output = scene::pictures_of(next->postprocess).output.index;
+            io::PictureName const& name = file.pictures[size_t(output)];
+            pictures[output] = post::run(*next, pictures);
+            if (is_tested(name))
+                judge(name.folder, name.name, pictures[output].image, {}, seconds, tally);
+        }
+    }
+}
+
+/// Throws InputError where the file has no test, too.
+void run_file(io::SceneFile const& file, std::string const& name,
+              session::RenderOptions const& options, Tally& tally) {
+    int tests = 0;
+    for (io::RenderJob const& job : file.jobs)
+        if (job.test) {
+            ++tests;
+            run_test(job, options, tally);
+        }
+    std::string references;
+    bool tested = false;
+    for (io::PostprocessJob const& job : file.postprocesses) {
+        io::PictureName const& picture =
+            file.pictures[size_t(scene::pictures_of(job.postprocess).output.index)];
+        tested |= is_tested(picture);
+        references += " or " + path_of(picture.folder, picture.name, "_ref.exr");
+    }
+    if (tested) run_postprocess_tests(file, options, tally);
+    if (tests == 0 && !tested)
+        throw InputError(SourceLocation{name, 0, 0},
+                         "expected a <test>" + references + ", found none");
 }
 
 int run(std::vector<std::string> const& files, session::RenderOptions const& options,
         TextureArguments const& textures) {
-    int passed = 0, failed = 0, broken = 0;
+    Tally tally;
+    int broken = 0;
     for (std::string const& name : files) {
         try {
-            io::SceneFile const file = io::read_scene_file(name, {}, make_texture_cache(textures));
-            int tests = 0;
-            for (io::RenderJob const& job : file.jobs)
-                if (job.test) {
-                    ++tests;
-                    ++(run_test(job, options) ? passed : failed);
-                }
-            if (tests == 0)
-                throw InputError(SourceLocation{name, 0, 0}, "expected a <test>, found none");
+            run_file(io::read_scene_file(name, {}, make_texture_cache(textures)), name, options,
+                     tally);
         } catch (InputError const& e) {
             fmt::print(stderr, "error: {}\n", e.what());
             ++broken;
         }
     }
-    fmt::print("{} passed, {} failed\n", passed, failed + broken);
-    return broken ? kInputError : failed ? kFailed : kDone;
+    fmt::print("{} passed, {} failed\n", tally.passed, tally.failed + broken);
+    return broken ? kInputError : tally.failed ? kFailed : kDone;
 }
 
 } // namespace
