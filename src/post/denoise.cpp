@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "post/exposure.h"
 #include "post/network.h"
 #include "post/nlm.h"
 #include "post/oidn.h"
@@ -32,6 +33,20 @@ std::string list(std::vector<std::string> const& names) {
     return text;
 }
 
+Denoised denoise_rest(DenoiseInput const& input, DenoiseOptions const& options) {
+    image::Image rest = image::make_image(input.color->width, input.color->height, 3), kept = rest;
+    for (int y = 0; y < rest.height; ++y)
+        for (int x = 0; x < rest.width; ++x)
+            for (int c = 0; c < 3; ++c) {
+                float const light = sane(input.color->at(x, y, c));
+                kept.at(x, y, c) = std::min(sane(input.kept->at(x, y, c)), light);
+                rest.at(x, y, c) = light - kept.at(x, y, c);
+            }
+    Denoised result = denoise({&rest, input.albedo, input.normal}, options);
+    for (size_t i = 0; i < kept.pixels.size(); ++i) result.image.pixels[i] += kept.pixels[i];
+    return result;
+}
+
 } // namespace
 
 std::string_view backend_name(Backend backend) { return choices(backend)[size_t(backend)]; }
@@ -40,6 +55,10 @@ Denoised denoise(DenoiseInput const& input, DenoiseOptions const& options) {
     check_size("picture", *input.color, *input.color);
     if (input.albedo) check_size("albedo", *input.albedo, *input.color);
     if (input.normal) check_size("normal", *input.normal, *input.color);
+    if (input.kept) {
+        check_size("light to keep", *input.kept, *input.color);
+        return denoise_rest(input, options);
+    }
     bool const any = options.backend == Backend::automatic;
     if (any || options.backend == Backend::oidn) {
         OidnLibrary const library(options.oidn_libraries);

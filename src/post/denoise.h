@@ -31,6 +31,9 @@ struct DenoiseInput {
     image::Image const* color = nullptr; ///< linear RGB, any exposure; further channels are ignored
     image::Image const* albedo = nullptr; ///< of the first surface, in [0, 1]; may be null
     image::Image const* normal = nullptr; ///< unit vectors in any frame, 0 for none; may be null
+    /// Light that is part of the colour and stays as it is, such as that of lamps in view; may be
+    /// null. The rest is denoised without it.
+    image::Image const* kept = nullptr;
 };
 
 struct DenoiseOptions {

@@ -24,6 +24,7 @@ DenoisedParts denoise_parts(std::span<image::Image const> parts, DenoiseInput gu
         return std::move(d.image);
     };
     result.whole = denoised(sum);
+    guides.kept = nullptr; // which says nothing about single parts
     for (image::Image const& part : parts) result.parts.push_back(denoised(part));
     for (size_t i = 0; i < sum.pixels.size(); ++i) {
         double total = 0;

@@ -23,7 +23,8 @@ struct DenoisedParts {
     bool lacks_weights = false; ///< as of `Denoised`
 };
 
-/// `guides` gives albedo and normal; its colour is not used. Throws as `denoise`.
+/// `guides` gives albedo and normal, and what the sum is to keep; its colour is not used. Throws as
+/// `denoise`.
 DenoisedParts denoise_parts(std::span<image::Image const> parts, DenoiseInput guides,
                             DenoiseOptions const& options);
 

@@ -105,6 +105,14 @@ if command -v oiiotool >/dev/null; then
     expect 0 "$weft" compare normals_after.exr normals_before.exr --mae 0
     expect 0 "$weft" denoise layers.exr --parts l_key,l_fill --backend nlm -o same.exr
     expect 0 "$weft" compare same.exr done.exr --mae 0
+    expect 0 "$weft" denoise layers.exr --parts 'l_*' --keep l_key --backend nlm -o kept.exr
+    oiiotool kept.exr --ch l_fill.R,l_fill.G,l_fill.B --chnames R,G,B -o fill.exr
+    oiiotool kept.exr --ch l_key.R,l_key.G,l_key.B --chnames R,G,B fill.exr --add -o sum.exr
+    oiiotool kept.exr --ch R,G,B -o whole.exr
+    expect 0 "$weft" compare sum.exr whole.exr --mae 2e-4
+    expect 1 "$weft" compare kept.exr done.exr --mae 0
+    expect 2 "$weft" denoise layers.exr --keep l_kye -o x.exr
+    has "layers.exr: expected a layer 'l_kye' of three channels (did you mean 'l_key'?)" err
     expect 2 "$weft" denoise layers.exr --parts l_key -o x.exr
     has "expected layers that sum to the picture, found l_key whose sum is off by 75%" err
     expect 2 "$weft" denoise layers.exr --albedo albdo -o x.exr

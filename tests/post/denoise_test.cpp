@@ -112,6 +112,23 @@ TEST(Denoise, IsDoneForTheSmallestPictures) {
     }
 }
 
+TEST(Denoise, WhatIsKeptStaysAsItIs) {
+    image::Image const noise = noisy_picture(48, 40);
+    image::Image color = noise, kept = constant_picture(48, 40, 0);
+    for (int y = 10; y < 20; ++y)
+        for (int x = 15; x < 40; ++x)
+            for (int c = 0; c < 3; ++c) color.at(x, y, c) += kept.at(x, y, c) = 700;
+    DenoiseOptions options;
+    options.backend = Backend::nlm;
+    image::Image const without = denoise({&noise}, options).image,
+                       with = denoise({&color, nullptr, nullptr, &kept}, options).image;
+    for (size_t i = 0; i < with.pixels.size(); ++i)
+        ASSERT_NEAR(with.pixels[i], without.pixels[i] + kept.pixels[i], 2e-3) << i;
+    image::Image const narrow = constant_picture(47, 40, 0);
+    EXPECT_EQ(message({&color, nullptr, nullptr, &narrow}, options),
+              "the light to keep expects the size of the picture, 48 x 40, found 47 x 40");
+}
+
 TEST(Denoise, NormalsAreTakenAsDrawnOrAsTheyAre) {
     image::Image drawn = image::make_image(2, 1, 3);
     drawn.pixels = {0.5f, 1, 0.25f, 0, 0, 0};

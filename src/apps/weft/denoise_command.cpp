@@ -22,7 +22,7 @@ namespace {
 struct Arguments {
     std::string input, output;
     std::string albedo, normal;
-    std::vector<std::string> parts;
+    std::vector<std::string> parts, keep;
     std::string backend = "auto", quality = "high";
     post::DenoiseOptions options;
 };
@@ -84,6 +84,18 @@ std::vector<std::string> expanded(std::vector<std::string> const& parts,
     return layers;
 }
 
+/// Empty without layers.
+image::Image sum_of(Arguments const& a, image::Image const& image,
+                    std::vector<std::string> const& layers) {
+    image::Image sum;
+    for (std::string const& layer : layers) {
+        image::Image const one = post::take_channels(image, layer_of(a.input, image, layer));
+        if (sum.pixels.empty()) sum = image::make_image(image.width, image.height, 3);
+        for (size_t i = 0; i < sum.pixels.size(); ++i) sum.pixels[i] += one.pixels[i];
+    }
+    return sum;
+}
+
 /// Parts that are to be denoised beside the whole must sum to it.
 void check_sum(Arguments const& a, image::Image const& color,
                std::vector<image::Image> const& parts) {
@@ -135,8 +147,10 @@ int run(Arguments& a) {
         guide(a, image, "albedo", a.albedo, post::find_albedo_layer(image.names));
     image::Image const normal = post::unpack_normals(
         guide(a, image, "normal", a.normal, post::find_normal_layer(image.names)));
+    image::Image const kept = sum_of(a, image, expanded(a.keep, image.names));
     post::DenoiseInput const input{&color, albedo.pixels.empty() ? nullptr : &albedo,
-                                   normal.pixels.empty() ? nullptr : &normal};
+                                   normal.pixels.empty() ? nullptr : &normal,
+                                   kept.pixels.empty() ? nullptr : &kept};
     a.parts = expanded(a.parts, image.names);
     std::vector<image::Image> parts;
     for (std::string const& layer : a.parts)
@@ -192,6 +206,11 @@ void add_denoise_command(CLI::App& app, Command& chosen) {
          "--parts", a->parts,
          "Layers that sum to the picture, as the light of each lamp: denoised so that they "
          "still do; 'light_*' stands for all that begin so")
+        ->type_name("LAYER,...")
+        ->delimiter(',');
+    c->add_option("--keep", a->keep,
+                  "Layers with light that stays as it is, as emission,background: lamps in view "
+                  "and the sky keep their edges, and what noise they have")
         ->type_name("LAYER,...")
         ->delimiter(',');
     c->add_option("--backend", a->backend, "What denoises; `weft help denoising` says more")

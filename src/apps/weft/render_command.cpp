@@ -80,8 +80,8 @@ Final final_picture(RenderArguments const& a, io::SceneFile const& file, bool wh
     for (std::string const& output : a.outputs)
         if (!std::filesystem::is_directory(output))
             throw InputError(
-                "-o expects an existing folder, since the scene renders several pictures (" + names +
-                "); found '" + output + "'");
+                "-o expects an existing folder, since the scene renders several pictures (" +
+                names + "); found '" + output + "'");
     return {};
 }
 
