@@ -24,7 +24,9 @@ void LightList::add(LightKind kind, std::span<lights::LightBounds const> leaves,
     first_leaf.push_back(uint32_t(bounds.size()));
     for (lights::LightBounds const& leaf : leaves) {
         bounds.push_back(leaf);
-        bounds.back().power = std::min(bounds.back().power * controls.weight, kMostPower);
+        // First to a number, which weight 0 makes 0.
+        bounds.back().power =
+            std::min(std::min(leaf.power, kMostPower) * controls.weight, kMostPower);
         bounds.back().weight = controls.weight;
     }
 }
