@@ -48,7 +48,7 @@ void Texture::add_levels() {
         };
         OIIO::parallel_for(int64_t(0), int64_t(to.height), [&](int64_t y) {
             reducer.reduce_row(
-                int(y), [&](int source) { return row_of(from, source); }, row_of(to, int(y)));
+                int(y), [&](int line) { return row_of(from, line); }, row_of(to, int(y)));
         });
     }
 }

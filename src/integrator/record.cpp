@@ -1,6 +1,7 @@
 #include "integrator/record.h"
 
 #include "base/feature.h"
+
 namespace weft::integrator {
 
 namespace {

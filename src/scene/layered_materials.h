@@ -12,13 +12,13 @@
 
 namespace weft::scene {
 
-/// What a material made of several is for secondary rays: those that have been scattered by a
-/// surface that is not a mirror or clear glass, or by a medium.
 inline constexpr schema::Attr kLabelAttr{
     .help = "Name of the layer: the AOV `layers` has a picture of the light that the camera sees "
             "it scatter, all layers of one name together. Letters, digits, _ and -; without one it "
             "belongs to the layer around it."};
 
+/// What a material made of several is for secondary rays: those that have been scattered by a
+/// surface that is not a mirror or clear glass, or by a medium.
 enum class SecondaryRays { full, base };
 constexpr auto choices(SecondaryRays) { return std::array<std::string_view, 2>{"full", "base"}; }
 

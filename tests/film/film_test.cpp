@@ -102,6 +102,7 @@ TEST(Layout, OfBeautyAloneNeedsNoRecord) {
 
 SceneTags test_tags() {
     SceneTags tags;
+    tags.layers = {"default", "paint"};
     tags.light_groups = {"default", "key"};
     tags.group_of_light = {0, 1, 1};
     tags.group_of_object = {0, 1, 0};
@@ -118,6 +119,7 @@ Film made_up_film(Region const& region, Region const& part, uint32_t from, uint3
     SceneTags const tags = test_tags();
     LayoutOptions options;
     options.light_groups = tags.light_groups;
+    options.layers = tags.layers;
     options.half_sums = true;
     Film film(region, Layout(all, options));
     SampleRecord record(film.layout(), tags);
@@ -132,7 +134,9 @@ Film made_up_film(Region const& region, Region const& part, uint32_t from, uint3
                 auto const number = [&] { return float(rng.next_uint() % 1024) / 64; };
                 sink.add({Color(number()), int32_t(rng.next_uint() % 3), path});
                 path.append(Bounce::Diffuse);
-                record.set_shares({Color(0.5f), Color(0.25f), Color(0.25f), Color(0), Color(0)});
+                record.add_share(Component::Diffuse, 0, Color(0.5f));
+                record.add_share(Component::Specular, 1, Color(0.25f));
+                record.add_share(Component::Transmission, 0, Color(0.25f));
                 sink.add({Color(number()), -1, path, int32_t(rng.next_uint() % 3)});
                 if (rng.next() < 0.7f)
                     record.set_surface({rng.next_uint() % 3,
@@ -257,13 +261,15 @@ TEST(SampleRecord, TellsLightApart) {
     SceneTags const tags = test_tags();
     LayoutOptions options;
     options.light_groups = tags.light_groups;
+    options.layers = tags.layers;
     Layout const layout(all, options);
     SampleRecord record(layout, tags);
     SampleSink sink(&record);
     PathSignature path;
     sink.add({Color(1), -1, path, 1}); // an emissive object
     sink.add({Color(2), 0, path, -1}); // the background
-    record.set_shares({Color(0.25f), Color(0.75f), Color(0), Color(0), Color(0)});
+    record.add_share(Component::Diffuse, 0, Color(0.25f));
+    record.add_share(Component::Specular, 1, Color(0.75f));
     sink.add({Color(4), 1, path, -1, true, true}); // a light sampled at the first surface
     path.append(Bounce::Glossy);
     sink.add({Color(8), 2, path, 2});
@@ -280,6 +286,9 @@ TEST(SampleRecord, TellsLightApart) {
     EXPECT_EQ(
         record.values()[size_t(layout.offset(Aov::light_groups) - layout.first_recorded() + 3)],
         1 + 4 + 8 + 16);
+    EXPECT_EQ(first_value(record, Aov::layers), 1 + 2 + 0.25f * (4 + 8 + 16));
+    EXPECT_EQ(record.values()[size_t(layout.offset(Aov::layers) - layout.first_recorded() + 3)],
+              0.75f * (4 + 8 + 16));
     EXPECT_EQ(first_value(record, Aov::removed), 32);
     EXPECT_EQ(sink.beauty(), Color(31));
     record.clear();
