@@ -27,7 +27,7 @@ class ProgressLine {
     void add_profile(Profile const& profile) { profile_ += profile; }
     /// How long each phase took, and where the render's time went, to stderr.
     void print_profile() const;
-    /// Says to programs what was reached; the last line.
+    /// Says to programs what was reached; the last line of a picture.
     void done(session::RenderResult const& result) const;
     void print(session::Progress const& progress);
     /// Leaves the terminal's line where the render stopped early.
