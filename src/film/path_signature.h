@@ -48,6 +48,7 @@ struct Contribution {
     /// It came over a surface that `path` does not hold as a bounce, since several lobes may share
     /// it.
     bool over_surface = false;
+    bool from_infinity = false; ///< a ray left the scene and found it
 
     /// How often the light was scattered.
     uint32_t bounces() const { return path.length() + (over_surface ? 1 : 0); }

@@ -30,15 +30,17 @@ void add_emission(world::World const& world, PathSettings const& settings, PathS
 
 /// Lamps of some size that the ray meets before `limit`, seen through the medium that it is in:
 /// wherever the path scatters in it, their light in this direction is the same. The camera looks
-/// through lamps.
+/// through those that are hidden from it.
 void add_lamps(world::World const& world, PathSettings const& settings, PathState const& path,
                float limit, film::SampleSink& sink) {
-    if (path.signature.length() == 0) return;
+    bool const seen = path.signature.length() == 0;
+    if (seen && !world.lights().camera_sees_lamps()) return;
     world::Ray ray = path.ray;
     ray.t_max = std::min(limit, path.ray.t_max);
     int32_t const medium = path.media.current().medium;
     world.lights().lamps(
         ray, path.at, [&](int32_t light, Vec3 const& p, Color const& radiance, float pdf) {
+            if (seen && world.lights()[light].hidden_from_camera) return;
             float const light_pdf = path.pdf > 0 ? pdf : 0;
             float const weight = found_weight(settings.strategy, path, light_pdf) *
                                  found_factor(world, settings, path, light, length(p - path.at.p));
@@ -59,8 +61,9 @@ void add_background(world::World const& world, PathSettings const& settings, Pat
             seen += radiance;
             float const weight = found_weight(settings.strategy, path, pdf) *
                                  found_factor(world, settings, path, light, kInfinity);
-            add_clamped(settings, {path.throughput * radiance * weight, light, path.signature},
-                        sink);
+            film::Contribution c{path.throughput * radiance * weight, light, path.signature};
+            c.from_infinity = true;
+            add_clamped(settings, c, sink);
         });
     if (sink.record()) record_background(path, seen, *sink.record());
 }

@@ -12,6 +12,7 @@ Applied apply(scene::Denoising const& denoising, Inputs const& inputs) {
     }
     DenoiseOptions options;
     options.backend = denoising.backend;
+    options.quality = denoising.quality;
     options.memory = denoising.memory;
     Denoised result = denoise(input, options);
     return {std::move(result.image), "denoising (" + std::string(backend_name(result.backend)) +

@@ -22,10 +22,9 @@ namespace weft::post {
 
 using Backend = scene::DenoiseBackend;
 
-/// How much time it may take. `high`: the noise is taken out of albedo and normal first, where both
-/// are there, and then the larger network; `balanced`: the smaller network for guides with noise.
-enum class Quality { high, balanced };
-constexpr auto choices(Quality) { return std::array<std::string_view, 2>{"high", "balanced"}; }
+/// `high`: the noise is taken out of albedo and normal first, where both are there, and then the
+/// larger network; `balanced`: the smaller network for guides with noise.
+using Quality = scene::DenoiseQuality;
 
 struct DenoiseInput {
     image::Image const* color = nullptr; ///< linear RGB, any exposure; further channels are ignored

@@ -23,14 +23,14 @@ struct PointLight {
         .category = "light",
         .type = "point",
         .help = "Shines evenly in all directions from one point or, with a radius, a ball. The "
-                "camera does not see the ball; mirrors do."};
+                "camera does not see the ball unless `visibleToCamera` says so; mirrors do."};
     Vec3 position{0, 0, 0};
     Input<Color> power{Color(1)};
     Input<Color> intensity{Color(0)};
     float radius = 0;
     LightUnit unit = LightUnit::radiometric;
     LightColor color;
-    LightControls controls;
+    LightControls controls{.visible_to_camera = false};
 
     template <class F>
     constexpr void describe(F&& f) {
@@ -53,13 +53,13 @@ struct DirectionalLight {
         .category = "light",
         .type = "directional",
         .help = "Parallel light from infinitely far away or, with an angle, a disk there. The "
-                "camera does not see the disk; mirrors do."};
+                "camera does not see the disk unless `visibleToCamera` says so; mirrors do."};
     Vec3 direction{0, 0, 1};
     Input<Color> intensity{Color(1)};
     float angle = 0;
     LightUnit unit = LightUnit::radiometric;
     LightColor color;
-    LightControls controls;
+    LightControls controls{.visible_to_camera = false};
 
     template <class F>
     constexpr void describe(F&& f) {
@@ -88,7 +88,8 @@ struct SpotLight {
         .category = "light",
         .type = "spot",
         .help = "A cone of light from one point or, with a radius, a ball; it can project an "
-                "image. The camera does not see the ball; mirrors do.",
+                "image. The camera does not see the ball unless `visibleToCamera` says so; mirrors "
+                "do.",
         .example = "<light type=\"spot\" position=\"0,3,0\" direction=\"0,-1,0\" angle=\"20\" "
                    "falloff=\"20\" falloffShape=\"smooth\" power=\"800\" unit=\"photometric\"/>"};
     Vec3 position{0, 0, 0};
@@ -103,7 +104,7 @@ struct SpotLight {
     float radius = 0;
     LightUnit unit = LightUnit::radiometric;
     LightColor color;
-    LightControls controls;
+    LightControls controls{.visible_to_camera = false};
 
     template <class F>
     constexpr void describe(F&& f) {
@@ -147,9 +148,10 @@ struct IesLight {
     static constexpr schema::TypeInfo info{
         .category = "light",
         .type = "ies",
-        .help = "A real lamp, as measured by its maker: the light's distribution and brightness "
-                "come from an IES file (LM-63). The camera does not see it; with a radius, mirrors "
-                "do.",
+        .help =
+            "A real lamp, as measured by its maker: the light's distribution and brightness "
+            "come from an IES file (LM-63). With a radius, mirrors see it, and the camera where "
+            "`visibleToCamera` says so.",
         .example = "<light type=\"ies\" filename=\"downlight.ies\" position=\"0,2.5,0\" "
                    "temperature=\"3000\"/>"};
     FileName filename;
@@ -159,7 +161,7 @@ struct IesLight {
     Input<Color> tint{Color(1)};
     float radius = 0;
     LightColor color;
-    LightControls controls;
+    LightControls controls{.visible_to_camera = false};
 
     template <class F>
     constexpr void describe(F&& f) {

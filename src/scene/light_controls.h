@@ -56,7 +56,8 @@ struct LightControls {
         f("volume", volume, with("Factor on its light that media scatter."));
         f("subsurface", subsurface, with("Factor on its light that comes from below surfaces."));
         f("visibleToCamera", visible_to_camera,
-          {.help = "Whether the camera sees the light itself."});
+          {.help = "Whether the camera sees the light itself: lamps if they have a radius or an "
+                   "angle."});
         f("visibleToSecondary", visible_to_secondary,
           {.help = "Whether mirrors and clear glass show the light itself; without it, light "
                    "sampling alone finds it, and rough surfaces are lit as before."});

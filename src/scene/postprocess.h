@@ -32,6 +32,12 @@ constexpr auto choices(DenoiseBackend) {
     return std::array<std::string_view, 4>{"auto", "oidn", "network", "nlm"};
 }
 
+/// How much time it may take: see post/denoise.h.
+enum class DenoiseQuality { high, balanced };
+constexpr auto choices(DenoiseQuality) {
+    return std::array<std::string_view, 2>{"high", "balanced"};
+}
+
 struct Denoising {
     static constexpr schema::TypeInfo info{
         .category = "postprocess",
@@ -44,6 +50,7 @@ struct Denoising {
             "  <image id=\"clean\"/>\n</postprocess>"};
     ImageId input, albedo, normal, image;
     DenoiseBackend backend = DenoiseBackend::automatic;
+    DenoiseQuality quality = DenoiseQuality::high;
     int memory = 1024;
 
     template <class F>
@@ -60,6 +67,9 @@ struct Denoising {
           {.help = "oidn: the library Open Image Denoise; network: its published weights, "
                    "evaluated by Weft; nlm: non-local means; auto: the first of these that is "
                    "there."});
+        f("quality", quality,
+          {.help = "high: albedo and normal are denoised first, and the network is the larger one; "
+                   "balanced: a quarter of the time. `nlm` has one quality."});
         f("memory", memory,
           {.unit = "MB",
            .min = 256,

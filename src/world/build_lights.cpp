@@ -17,7 +17,7 @@ Color WorldBuilder::brightness(scene::Input<Color> const& input, std::string con
 void WorldBuilder::add_lamp(Lamp lamp, float power, scene::LightControls const& controls,
                             LightList& list) {
     auto const where = lights::bounds_of(lamp.luminaire);
-    list.add(std::move(lamp), where, power, controls, true);
+    list.add_lamp(std::move(lamp), where, power, controls);
 }
 
 void WorldBuilder::add_light(scene::PointLight const& light, SourceLocation const&,
@@ -39,11 +39,11 @@ void WorldBuilder::add_light(scene::DirectionalLight const& light, SourceLocatio
     Vec3 const direction = normalize(light.direction);
     float const power = list.cross_section * luminance(irradiance);
     if (radians(0.5f * light.angle) >= lights::kLeastSunRadius)
-        list.add(lights::make_sun_disk(direction, radians(0.5f * light.angle), irradiance),
-                 at_infinity(), power, light.controls, true);
+        list.add_lamp(lights::make_sun_disk(direction, radians(0.5f * light.angle), irradiance),
+                      at_infinity(), power, light.controls);
     else
-        list.add(lights::DirectionalLight{direction, irradiance}, at_infinity(), power,
-                 light.controls);
+        list.add_lamp(lights::DirectionalLight{direction, irradiance}, at_infinity(), power,
+                      light.controls);
 }
 
 std::pair<std::optional<Gobo>, float> WorldBuilder::make_gobo(scene::SpotLight const& light,

@@ -80,8 +80,10 @@ LightSample from_infinity(Sample const& s) {
 void LightTable::commit_lamps(RTCDevice device) {
     std::vector<LampScene::Ball> balls;
     for (size_t i = 0; i < lights_.size(); ++i)
-        if (auto const* lamp = std::get_if<Lamp>(&lights_[i].kind); lamp && lamp->luminaire.ball)
+        if (auto const* lamp = std::get_if<Lamp>(&lights_[i].kind); lamp && lamp->luminaire.ball) {
+            camera_sees_lamps_ |= !lights_[i].hidden_from_camera;
             balls.push_back({lamp->luminaire.position(), lamp->luminaire.radius, int32_t(i)});
+        }
     if (!balls.empty()) lamps_ = std::make_unique<LampScene>(device, std::move(balls));
 }
 

@@ -61,7 +61,7 @@ struct Light {
     LightRules rules;
     int32_t source = -1;             ///< of the scene's lights, for messages
     float power = 0;                 ///< luminance of all that it emits
-    bool hidden_from_camera = false; ///< seen by bounced rays alone
+    bool hidden_from_camera = false; ///< a lamp, seen by bounced rays alone
 };
 
 /// A point to be lit, as far as the choice of lights goes.
@@ -99,6 +99,13 @@ struct LightList {
              scene::LightControls const& controls, bool hidden_from_camera = false) {
         where.power = power;
         add(std::move(kind), std::span(&where, 1), controls, hidden_from_camera);
+    }
+    /// A light that is no object: hiding it from the camera is no control that takes light away.
+    void add_lamp(LightKind kind, lights::LightBounds const& where, float power,
+                  scene::LightControls controls) {
+        bool const hidden = !controls.visible_to_camera;
+        controls.visible_to_camera = true;
+        add(std::move(kind), where, power, controls, hidden);
     }
 };
 
@@ -142,6 +149,9 @@ class LightTable {
 
     /// What choosing among the lights takes, in bytes.
     size_t memory_bytes() const;
+
+    /// Whether any lamp of a size is not hidden from the camera.
+    bool camera_sees_lamps() const { return camera_sees_lamps_; }
 
     /// Radiance of all lamps that the ray meets before its t_max, each with the density with which
     /// `sample` at `at`, a point on the ray's line, gives its direction: calls f(light, p,
@@ -202,6 +212,7 @@ class LightTable {
     std::vector<uint32_t> light_of_leaf_; ///< empty where each light has one leaf
     std::vector<int32_t> environments_;   ///< lights that rays meet infinitely far away
     std::unique_ptr<LampScene> lamps_;    ///< null: no lamp has a size
+    bool camera_sees_lamps_ = false;
     lights::LightTree tree_;
     World const* world_ = nullptr;
     shading::Textures const* textures_ = nullptr; ///< of the world

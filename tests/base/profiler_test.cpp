@@ -121,9 +121,9 @@ TEST(Profiler, AddsUpThreads) {
 TEST(Profiler, WorkInManyShortPiecesIsNotLost) {
     Profiler profiler;
     for (int i = 0; i < 2000; ++i) {
-        work_for(0.1e-3); // nobody's
+        work_for(0.1e-3);                          // nobody's
+        FeatureScope const scope(Feature::Camera); // while work begins and ends, too
         Profiler::Work const work(&profiler);
-        FeatureScope const scope(Feature::Camera);
         work_for(0.1e-3);
     }
     Profile const p = profiler.profile();

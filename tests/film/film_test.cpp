@@ -266,8 +266,8 @@ TEST(SampleRecord, TellsLightApart) {
     SampleRecord record(layout, tags);
     SampleSink sink(&record);
     PathSignature path;
-    sink.add({Color(1), -1, path, 1}); // an emissive object
-    sink.add({Color(2), 0, path, -1}); // the background
+    sink.add({Color(1), -1, path, 1});                     // an emissive object
+    sink.add({Color(2), 0, path, -1, false, false, true}); // the background
     record.add_share(Component::Diffuse, 0, Color(0.25f));
     record.add_share(Component::Specular, 1, Color(0.75f));
     sink.add({Color(4), 1, path, -1, true, true}); // a light sampled at the first surface

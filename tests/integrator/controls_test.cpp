@@ -210,6 +210,45 @@ TEST(LightControls, Visibility) {
     expect_equal(equations);
 }
 
+TEST(LightControls, TheCameraSeesLampsWhereTheySaySo) {
+    // Radiance of a ball of power P and radius r: P / (4 pi^2 r^2).
+    std::string const camera = R"(<camera type="perspective" width="8" height="8" fov="45">
+        <transform><lookat origin="0,0,-5" target="0,0,0" up="0,1,0"/></transform></camera>)";
+    auto const with = [&](std::string const& light) { return camera + light; };
+    std::string const ball = R"(<light type="point" power="39.4784176" radius="1.5" )";
+    std::string const disk =
+        R"(<light type="directional" direction="0,0,1" angle="20" intensity="2" )";
+    double const disk_radiance = 2 / (M_PI * std::pow(std::sin(M_PI / 18), 2));
+    std::vector<Equation> equations;
+    for (std::string const strategy : {"mis", "nee", "bsdf"}) {
+        std::string const how = "depth=\"3\" strategy=\"" + strategy + "\"";
+        auto const shown = [&](std::string const& lamp) -> Picture {
+            return {with(lamp + "visibleToCamera=\"true\"/>"), how};
+        };
+        equations.push_back({strategy + ": ball",
+                             {shown(ball)},
+                             {{with(R"(<light type="area"><instance><shape type="sphere"/>
+                                 <emission type="lambertian" emission="0.444444444"/>
+                                 <transform><scale value="1.5"/></transform></instance></light>)"),
+                               how}}});
+        // The disk fills part of the view, as one of the same radiance in front does.
+        equations.push_back(
+            {strategy + ": disk",
+             {shown(disk)},
+             {{with(
+                   R"(<light type="area"><instance><shape type="disk"/><emission type="lambertian" emission=")" +
+                   std::to_string(disk_radiance) + R"("/><transform><scale value=")" +
+                   std::to_string(5 * std::tan(M_PI / 18)) +
+                   R"("/><rotate axis="0,1,0" angle="180"/></transform></instance></light>)"),
+               how}}});
+        for (std::string const& lamp : {ball, disk})
+            equations.push_back({strategy + ": hidden otherwise",
+                                 {{with(lamp + "/>"), how}},
+                                 {{with(lamp + "visibleToCamera=\"false\"/>"), how, 0}}});
+    }
+    expect_equal(equations);
+}
+
 TEST(LightControls, Shadows) {
     // Blockers that the camera does not see; at depth 2 they do nothing but cast shadows.
     auto const card = [](std::string const& x, std::string const& attributes) {

@@ -1,4 +1,5 @@
 // weft merge PART...: joins the parts of a render to its picture.
+#include <algorithm>
 #include <fmt/format.h>
 #include <memory>
 
@@ -17,6 +18,21 @@ struct MergeArguments {
     OptionTexts display;
 };
 
+/// Says what of the parts is in none of the files.
+void warn(MergeArguments const& a, session::RenderState const& whole) {
+    auto const aovs = whole.film.layout().aovs();
+    bool const more = std::any_of(aovs.begin(), aovs.end(), [](film::Aov aov) {
+        return aov != film::Aov::beauty && aov != film::Aov::alpha;
+    });
+    if (more && std::none_of(a.outputs.begin(), a.outputs.end(), image::is_exr))
+        fmt::print(stderr, "warning: the AOVs of the parts are not written: only .exr files hold "
+                           "them\n");
+    if (whole.bad_samples > 0)
+        fmt::print(stderr,
+                   "warning: {} samples were not finite or negative light and count as black\n",
+                   whole.bad_samples);
+}
+
 int run(MergeArguments const& a) {
     for (std::string const& output : a.outputs) image::check_writable(output);
     post::DisplayChain const chain = display_chain(a.display);
@@ -33,6 +49,7 @@ int run(MergeArguments const& a) {
         write_film(output, whole.film, header, chain);
         fmt::print("{}\n", output);
     }
+    warn(a, whole);
     fmt::print(stderr, "{} x {} pixels, {} samples each, of {} parts\n",
                whole.film.region().width(), whole.film.region().height(), whole.samples, count);
     return kDone;

@@ -115,6 +115,9 @@ int run(std::vector<std::string> const& files, session::RenderOptions const& opt
         } catch (InputError const& e) {
             fmt::print(stderr, "error: {}\n", e.what());
             ++broken;
+        } catch (image::IoError const& e) {
+            fmt::print(stderr, "error: {}\n", e.what());
+            ++broken;
         }
     }
     fmt::print("{} passed, {} failed\n", tally.passed, tally.failed + broken);
