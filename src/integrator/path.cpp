@@ -196,6 +196,7 @@ void trace_path(world::World const& world, PathSettings const& settings, world::
     PathState path;
     path.ray = ray;
     path.ray.mask = ray_mask(settings, path.kind);
+    path.at.p = ray.origin;
     path.media = media;
     uint32_t crossings = 0; // of surfaces that are no vertex
     for (uint32_t vertex = 1; vertex <= settings.depth; ++vertex) {

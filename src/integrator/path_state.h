@@ -38,7 +38,7 @@ struct PathState {
 
     // The last scattering, for weighing what the ray finds against what light sampling finds.
     float pdf = 0;      ///< of the ray's direction; 0: delta or camera, which nothing else finds
-    world::LitPoint at; ///< where it was
+    world::LitPoint at; ///< where it was; the camera where there was none
     uint64_t sets = 0;  ///< of instances that it belongs to
     world::RayKind kind = world::RayKind::camera;
     float eta_scale = 1; ///< undoes the radiance scaling of refraction for roulette

@@ -215,7 +215,8 @@ TEST(LightControls, TheCameraSeesLampsWhereTheySaySo) {
     std::string const camera = R"(<camera type="perspective" width="8" height="8" fov="45">
         <transform><lookat origin="0,0,-5" target="0,0,0" up="0,1,0"/></transform></camera>)";
     auto const with = [&](std::string const& light) { return camera + light; };
-    std::string const ball = R"(<light type="point" power="39.4784176" radius="1.5" )";
+    std::string const ball =
+        R"(<light type="point" position="0.7,0.4,1" power="39.4784176" radius="1.5" )";
     std::string const disk =
         R"(<light type="directional" direction="0,0,1" angle="20" intensity="2" )";
     double const disk_radiance = 2 / (M_PI * std::pow(std::sin(M_PI / 18), 2));
@@ -229,7 +230,7 @@ TEST(LightControls, TheCameraSeesLampsWhereTheySaySo) {
                              {shown(ball)},
                              {{with(R"(<light type="area"><instance><shape type="sphere"/>
                                  <emission type="lambertian" emission="0.444444444"/>
-                                 <transform><scale value="1.5"/></transform></instance></light>)"),
+                                 <transform><scale value="1.5"/><translate value="0.7,0.4,1"/></transform></instance></light>)"),
                                how}}});
         // The disk fills part of the view, as one of the same radiance in front does.
         equations.push_back(
