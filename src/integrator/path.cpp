@@ -68,19 +68,11 @@ void add_background(world::World const& world, PathSettings const& settings, Pat
     if (sink.record()) record_background(path, seen, *sink.record());
 }
 
-/// The part of light that goes straight on.
-Color straight_part(lobes::Bsdf const& bsdf) {
-    Color sum;
-    for (int i = 0; i < bsdf.size(); ++i)
-        if (std::holds_alternative<lobes::Transparent>(bsdf[i].kind)) sum += bsdf[i].weight;
-    return sum;
-}
-
 /// The camera sees through a hole that an object cuts: black, with the alpha of a background. What
 /// the object itself lets straight through is no part of the hole. Whether there is any.
 bool hold_out(PathState& path, lobes::Bsdf const& bsdf, bool is_see_through,
               film::SampleSink& sink) {
-    Color const through = is_see_through ? path.throughput * straight_part(bsdf) : Color(0);
+    Color const through = is_see_through ? path.throughput * bsdf.straight() : Color(0);
     path.held_out += average(path.throughput - through);
     path.throughput = through;
     film::SampleRecord* const record = sink.record();

@@ -48,10 +48,6 @@ void share_all(Component component, uint16_t layer, film::SampleRecord& record) 
     record.add_share(component, layer, Color(1));
 }
 
-LobeFlags flags_of(lobes::Lobe const& lobe) {
-    return match(lobe.kind, [](auto const& l) { return l.flags(); });
-}
-
 /// Shares out what the smooth lobes for which `takes_part(lobe)` send from wi to wo.
 template <class TakesPart>
 void share_by_lobe(lobes::Bsdf const& bsdf, Vec3 const& wo, Vec3 const& wi,

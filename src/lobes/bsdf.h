@@ -55,6 +55,10 @@ struct Lobe {
     LobeVariant kind;
 };
 
+inline LobeFlags flags_of(Lobe const& lobe) {
+    return match(lobe.kind, [](auto const& l) { return l.flags(); });
+}
+
 struct BsdfSample {
     Vec3 wi{0, 0, 0};
     Color weight;        ///< f |cos wi| / pdf
@@ -114,7 +118,7 @@ class Bsdf {
         if (count_ == capacity) return false;
         Lobe const& lobe = *std::construct_at(
             &lobes_[count_++], Lobe{weight, 1, uint8_t(current_frame_), layer, LobeVariant(kind)});
-        LobeFlags const flags = match(lobe.kind, [](auto const& l) { return l.flags(); });
+        LobeFlags const flags = flags_of(lobe);
         flags_ |= flags;
         if (!any(flags, LobeFlags::Delta)) smooth_flags_ |= flags;
         return true;
@@ -164,6 +168,14 @@ class Bsdf {
     Color albedo(Vec3 const& wo) const {
         Color sum;
         for (int i = 0; i < count_; ++i) sum += lobes_[i].weight * lobe_albedo(lobes_[i], wo);
+        return sum;
+    }
+
+    /// The part of light that goes straight on.
+    Color straight() const {
+        Color sum;
+        for (int i = 0; i < count_; ++i)
+            if (any(flags_of(lobes_[i]), LobeFlags::Straight)) sum += lobes_[i].weight;
         return sum;
     }
 
@@ -289,8 +301,7 @@ inline void Bsdf::prepare(Vec3 const& wo) {
 inline LobeValue Bsdf::eval_part(Vec3 const& wo, Vec3 const& wi, LobeFlags part) const {
     LobeValue sum;
     for (int i = 0; i < count_; ++i) {
-        LobeFlags const flags = match(lobes_[i].kind, [](auto const& l) { return l.flags(); });
-        if (!in_part(flags, part)) continue;
+        if (!in_part(flags_of(lobes_[i]), part)) continue;
         LobeValue const v = eval_folded({i, i + 1, frames_[lobes_[i].frame]}, wo, wi);
         sum.f += v.f;
         sum.pdf += v.pdf;
@@ -304,7 +315,7 @@ inline void Bsdf::keep_diffuse() {
     float total = 0;
     flags_ = smooth_flags_ = LobeFlags::None;
     for (int i = 0; i < count_; ++i) {
-        LobeFlags const flags = match(lobes_[i].kind, [](auto const& l) { return l.flags(); });
+        LobeFlags const flags = flags_of(lobes_[i]);
         if (!any(flags, kept)) continue;
         lobes_[count++] = lobes_[i];
         total += lobes_[i].pick;

@@ -180,11 +180,7 @@ void Materials::shade(scene::MaterialId id, SurfacePoint const& point, View cons
 Color Materials::straight(scene::MaterialId id, SurfacePoint const& point, View const& view) const {
     Shading shading(lobes::Bsdf(shading_frame(point, point.ns, view), view.ng));
     LobeBuilder{*this, point, view, shading, shading.bsdf.frame()}.build(id);
-    Color sum(0);
-    for (int i = 0; i < shading.bsdf.size(); ++i)
-        if (std::holds_alternative<lobes::Transparent>(shading.bsdf[i].kind))
-            sum += shading.bsdf[i].weight;
-    return sum;
+    return shading.bsdf.straight();
 }
 
 scene::Input<float> interior_ior(scene::Scene const& scene, scene::MaterialId id) {
