@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "post/exposure.h"
+#include "post/layers.h"
 
 namespace weft::post {
 
@@ -87,14 +88,6 @@ void sanitise(image::Image& image) {
     for (float& x : image.pixels) x = sane(x);
 }
 
-image::Image three_channels(image::Image const& image) {
-    image::Image result = image::make_image(image.width, image.height, 3);
-    for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x)
-            for (int c = 0; c < 3; ++c) result.at(x, y, c) = image.at(x, y, c);
-    return result;
-}
-
 } // namespace
 
 OidnLibrary::OidnLibrary(std::vector<std::string> const& names) {
@@ -168,7 +161,7 @@ class Denoiser {
 image::Image denoise_oidn(OidnLibrary const& library, DenoiseInput const& input, Quality quality,
                           int memory) {
     Denoiser denoiser(library, memory);
-    image::Image color = three_channels(*input.color), albedo, normal;
+    image::Image color = take_channels(*input.color, {0, 1, 2}), albedo, normal;
     sanitise(color);
     std::vector<Denoiser::Named> inputs{{"color", &color}};
     std::vector<char const*> flags{"hdr"};

@@ -6,6 +6,7 @@
 #include "apps/weft/commands.h"
 #include "apps/weft/display_options.h"
 #include "apps/weft/picture_file.h"
+#include "apps/weft/progress_line.h"
 #include "image/write.h"
 #include "session/render_state.h"
 
@@ -18,19 +19,15 @@ struct MergeArguments {
     OptionTexts display;
 };
 
-/// Says what of the parts is in none of the files.
-void warn(MergeArguments const& a, session::RenderState const& whole) {
-    auto const aovs = whole.film.layout().aovs();
+/// Says so where no file can hold the AOVs of the parts.
+void warn_of_aovs(MergeArguments const& a, film::Layout const& layout) {
+    auto const aovs = layout.aovs();
     bool const more = std::any_of(aovs.begin(), aovs.end(), [](film::Aov aov) {
         return aov != film::Aov::beauty && aov != film::Aov::alpha;
     });
     if (more && std::none_of(a.outputs.begin(), a.outputs.end(), image::is_exr))
         fmt::print(stderr, "warning: the AOVs of the parts are not written: only .exr files hold "
                            "them\n");
-    if (whole.bad_samples > 0)
-        fmt::print(stderr,
-                   "warning: {} samples were not finite or negative light and count as black\n",
-                   whole.bad_samples);
 }
 
 int run(MergeArguments const& a) {
@@ -45,11 +42,9 @@ int run(MergeArguments const& a) {
     header.texts["weft:samplesPerPixel"] = std::to_string(whole.samples);
     if (header.texts.contains("weft:renderSeconds"))
         header.texts["weft:renderSeconds"] = fmt::format("{:.3f}", whole.seconds);
-    for (std::string const& output : a.outputs) {
-        write_film(output, whole.film, header, chain);
-        fmt::print("{}\n", output);
-    }
-    warn(a, whole);
+    report_bad_samples(whole.bad_samples, whole.first_bad_samples, header.texts["weft:seed"]);
+    warn_of_aovs(a, whole.film.layout());
+    write_films(a.outputs, whole.film, header, chain);
     fmt::print(stderr, "{} x {} pixels, {} samples each, of {} parts\n",
                whole.film.region().width(), whole.film.region().height(), whole.samples, count);
     return kDone;

@@ -1,6 +1,7 @@
 #include "apps/weft/picture_file.h"
 
 #include <cstdlib>
+#include <exception>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -118,6 +119,20 @@ void write_film(std::string const& path, film::Film const& film, image::ExrHeade
                             plain_texts(header));
     else
         post::write_picture(path, film.mean(), chain, plain_texts(header));
+}
+
+void write_films(std::vector<std::string> const& paths, film::Film const& film,
+                 image::ExrHeader const& header, post::DisplayChain const& chain) {
+    std::exception_ptr failure;
+    for (std::string const& path : paths) {
+        try {
+            write_film(path, film, header, chain);
+            fmt::print("{}\n", path);
+        } catch (image::IoError const&) {
+            if (!failure) failure = std::current_exception();
+        }
+    }
+    if (failure) std::rethrow_exception(failure);
 }
 
 std::string header_text(image::ExrHeader const& h) {

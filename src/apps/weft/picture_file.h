@@ -19,6 +19,11 @@ image::ExrHeader picture_header(session::RenderResult const& result, io::RenderJ
 void write_film(std::string const& path, film::Film const& film, image::ExrHeader const& header,
                 post::DisplayChain const& chain);
 
+/// The same for several files, whose names it prints: all that can be written are; then it throws
+/// what the first of the others had to say.
+void write_films(std::vector<std::string> const& paths, film::Film const& film,
+                 image::ExrHeader const& header, post::DisplayChain const& chain);
+
 /// The part of a header's texts that belongs into any file.
 image::Metadata plain_texts(image::ExrHeader const& header);
 

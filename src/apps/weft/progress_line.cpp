@@ -105,6 +105,19 @@ void ProgressLine::done(session::RenderResult const& r) const {
     std::fflush(stderr);
 }
 
+void report_bad_samples(uint64_t count, std::span<session::BadSample const> first,
+                        std::string const& seed) {
+    if (count == 0) return;
+    fmt::print(
+        stderr,
+        "warning: {} samples were not finite or negative light and count as black; `weft replay` "
+        "traces one again; the first:\n",
+        count);
+    for (auto const& b : first)
+        fmt::print(stderr, "  pixel {},{} sample {} seed {}: {} {} {}\n", b.pixel.x, b.pixel.y,
+                   b.sample, seed, b.value.r, b.value.g, b.value.b);
+}
+
 void print_summary(session::RenderResult const& r, session::RenderOptions const& o) {
     double const pixels = double(r.region.pixels()), mean = r.pixel_samples / pixels;
     bool const even = mean == r.least_samples;

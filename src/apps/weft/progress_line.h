@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -44,6 +45,11 @@ class ProgressLine {
     Profile profile_;
     double due_ = 2; ///< seconds since the start, of the next plain line
 };
+
+/// Says how many samples count as black, and how to look at the first of them; nothing where there
+/// are none. `seed`: of the render.
+void report_bad_samples(uint64_t count, std::span<session::BadSample const> first,
+                        std::string const& seed);
 
 /// For people: size, samples, time, speed, memory, and what the render was after and reached.
 void print_summary(session::RenderResult const& result, session::RenderOptions const& options);

@@ -1,6 +1,5 @@
 #include "apps/weft/render_job.h"
 
-#include <exception>
 #include <filesystem>
 #include <fmt/format.h>
 
@@ -93,18 +92,6 @@ void check_checkpoint_file(RenderArguments const& a, std::vector<std::string> co
                          a.checkpoint.file + "', which is another of the render's files");
 }
 
-void report_bad_samples(session::RenderResult const& r, uint32_t seed) {
-    if (r.bad_samples == 0) return;
-    fmt::print(
-        stderr,
-        "warning: {} samples were not finite or negative light and count as black; `weft replay` "
-        "traces one again; the first:\n",
-        r.bad_samples);
-    for (auto const& b : r.first_bad_samples)
-        fmt::print(stderr, "  pixel {},{} sample {} seed {}: {} {} {}\n", b.pixel.x, b.pixel.y,
-                   b.sample, seed, b.value.r, b.value.g, b.value.b);
-}
-
 void write_part(std::vector<std::string> const& paths, session::RenderResult&& result,
                 world::World const& world, io::RenderJob const& job,
                 session::RenderOptions const& options) {
@@ -117,27 +104,12 @@ void write_part(std::vector<std::string> const& paths, session::RenderResult&& r
     }
 }
 
-/// All that can be written is; then it throws what the first of the others had to say.
-void write_outputs(std::vector<std::string> const& paths, film::Film const& film,
-                   image::ExrHeader const& header, post::DisplayChain const& chain) {
-    std::exception_ptr failure;
-    for (std::string const& path : paths) {
-        try {
-            write_film(path, film, header, chain);
-            fmt::print("{}\n", path);
-        } catch (image::IoError const&) {
-            if (!failure) failure = std::current_exception();
-        }
-    }
-    if (failure) std::rethrow_exception(failure);
-}
-
 /// Writes what there is, says what was reached, and returns the exit code; `made` becomes the
 /// picture.
 int finish(session::RenderOptions const& options, std::vector<std::string> const& paths,
            io::RenderJob const& job, world::World const& world, post::DisplayChain const& chain,
            ProgressLine& progress, session::RenderResult&& result, post::Picture& made) {
-    report_bad_samples(result, options.seed);
+    report_bad_samples(result.bad_samples, result.first_bad_samples, std::to_string(options.seed));
     bool const whole = options.part.is_whole();
     if (result.cancelled && (!whole || result.least_samples == 0)) {
         fmt::print(stderr, "stopped before {}: no file is overwritten\n",
@@ -151,7 +123,7 @@ int finish(session::RenderOptions const& options, std::vector<std::string> const
     progress.phase("write");
     if (whole) {
         image::ExrHeader const header = picture_header(result, job, world, options.seed);
-        write_outputs(paths, result.film, header, chain);
+        write_films(paths, result.film, header, chain);
         made.metadata = plain_texts(header);
     }
     print_summary(result, options);

@@ -108,16 +108,18 @@ int run(std::vector<std::string> const& files, session::RenderOptions const& opt
         TextureArguments const& textures) {
     Tally tally;
     int broken = 0;
+    auto const cannot_run = [&](std::exception const& e) {
+        fmt::print(stderr, "error: {}\n", e.what());
+        ++broken;
+    };
     for (std::string const& name : files) {
         try {
             run_file(io::read_scene_file(name, {}, make_texture_cache(textures)), name, options,
                      tally);
         } catch (InputError const& e) {
-            fmt::print(stderr, "error: {}\n", e.what());
-            ++broken;
+            cannot_run(e);
         } catch (image::IoError const& e) {
-            fmt::print(stderr, "error: {}\n", e.what());
-            ++broken;
+            cannot_run(e);
         }
     }
     fmt::print("{} passed, {} failed\n", tally.passed, tally.failed + broken);
