@@ -100,7 +100,7 @@ assert last["percent"] == 100 and 0 < last["noise"] <= 0.05 and last["secondsLef
 done, profile = objects[-2:]
 assert done["complete"] and done["leastSamples"] >= 32 and done["peakMemory"] > 1e6, done
 assert set(profile["phases"]) == {"read", "commit", "render", "write"}, profile
-assert abs(sum(profile["phases"].values()) - profile["seconds"]) < 0.05 * profile["seconds"], profile
+assert abs(sum(profile["phases"].values()) - profile["seconds"]) < 0.003, profile # rounding
 P
 
 [ $failures = 0 ] && echo "renders can be watched"

@@ -17,14 +17,15 @@ namespace {
 struct QualityCase {
     char const* name;
     char const* scene;
+    double network_relative = 0.25; ///< what the network may leave of the relative error
 };
 
-/// What may be left of the error, the mean square and the relative one.
-constexpr double kNetworkLeaves = 0.35, kNlmLeaves = 0.6;
+/// What may be left of the mean square error, and of the relative one.
+constexpr double kNetworkLeaves = 0.35, kNlmLeaves = 0.6, kNlmRelative = 0.5;
 
 constexpr QualityCase kCases[] = {
     {"demo", "demo.xml"},
-    {"swatch", "swatch.xml"},
+    {"swatch", "swatch.xml", 0.3}, // threads as wide as a pixel, and little noise
     {"fabrics", "figures/fabrics.xml"},
     {"roughness", "figures/roughness.xml"},
     {"shader_sheet", "figures/shader_sheet.xml"},
@@ -73,9 +74,9 @@ TEST_P(DenoisingQuality, LittleNoiseIsLeft) {
         std::cout << GetParam().name << ", " << backend_name(backend) << ": " << ratio
                   << " of the mean square error is left, " << after.rel_mse / before.rel_mse
                   << " of the relative one\n";
-        double const limit = network ? kNetworkLeaves : kNlmLeaves;
-        EXPECT_LT(ratio, limit);
-        EXPECT_LT(after.rel_mse / before.rel_mse, limit);
+        EXPECT_LT(ratio, network ? kNetworkLeaves : kNlmLeaves);
+        EXPECT_LT(after.rel_mse / before.rel_mse,
+                  network ? GetParam().network_relative : kNlmRelative);
     }
 }
 
