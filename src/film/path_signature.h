@@ -38,20 +38,27 @@ class PathSignature {
     uint32_t length_ = 0;
 };
 
+/// How the light of a contribution was found.
+enum class Found : uint8_t {
+    ByRay,            ///< a ray met the light
+    InBackground,     ///< a ray left the scene
+    SampledInMedium,  ///< light sampling at a point in a medium, which `path` ends with
+    SampledAtSurface, ///< light sampling at a surface, which `path` does not hold as a bounce,
+                      ///< since several lobes may share it
+};
+
 struct Contribution {
     Color value;        ///< radiance at the camera
     int32_t light = -1; ///< index of the light; -1: an emissive object that is no light
     PathSignature const& path;
     int32_t object = -1; ///< index of the emissive object that a ray met; -1: none
-    /// Light sampling found it, rather than a ray.
-    bool sampled = false;
-    /// It came over a surface that `path` does not hold as a bounce, since several lobes may share
-    /// it.
-    bool over_surface = false;
-    bool from_infinity = false; ///< a ray left the scene and found it
+    Found found = Found::ByRay;
 
-    /// How often the light was scattered.
-    uint32_t bounces() const { return path.length() + (over_surface ? 1 : 0); }
+    bool is_sampled() const {
+        return found == Found::SampledInMedium || found == Found::SampledAtSurface;
+    }
+    /// Returns how often the light was scattered on its way to the camera.
+    uint32_t bounces() const { return path.length() + (found == Found::SampledAtSurface ? 1 : 0); }
 };
 
 } // namespace weft::film

@@ -46,7 +46,7 @@ void SampleRecord::add_light(Contribution const& c) {
     uint32_t const bounces = c.bounces();
     if (bounces == 0) {
         add_to(Aov::layers, c.value);
-        add_to(c.from_infinity ? Aov::background : Aov::emission, c.value);
+        add_to(c.found == Found::InBackground ? Aov::background : Aov::emission, c.value);
         return;
     }
     int const first = int(bounces == 1 ? Aov::direct_diffuse : Aov::indirect_diffuse);

@@ -67,7 +67,7 @@ class SampleRecord {
         if (log_)
             log_->push_back({.kind = PathEvent::Kind::Light,
                              .value = c.value,
-                             .sampled = c.sampled,
+                             .sampled = c.is_sampled(),
                              .object = c.object,
                              .light = c.light,
                              .bounces = c.bounces()});

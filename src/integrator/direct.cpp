@@ -117,7 +117,8 @@ void add(PathSettings const& settings, PathState const& path, Connection const& 
     auto const add_value = [&](Color const& value) {
         add_clamped(
             settings,
-            {value * arriving, c.light.light, path.signature, -1, true, c.point.surface != nullptr},
+            {value * arriving, c.light.light, path.signature, -1,
+             c.point.surface ? film::Found::SampledAtSurface : film::Found::SampledInMedium},
             sink);
     };
     film::SampleRecord* const record = c.point.bsdf ? sink.record() : nullptr;

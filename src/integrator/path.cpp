@@ -61,9 +61,10 @@ void add_background(world::World const& world, PathSettings const& settings, Pat
             seen += radiance;
             float const weight = found_weight(settings.strategy, path, pdf) *
                                  found_factor(world, settings, path, light, kInfinity);
-            film::Contribution c{path.throughput * radiance * weight, light, path.signature};
-            c.from_infinity = true;
-            add_clamped(settings, c, sink);
+            add_clamped(settings,
+                        {path.throughput * radiance * weight, light, path.signature, -1,
+                         film::Found::InBackground},
+                        sink);
         });
     if (sink.record()) record_background(path, seen, *sink.record());
 }

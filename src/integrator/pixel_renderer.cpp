@@ -19,29 +19,32 @@ PathSettings without_controls(PathSettings const& s) {
     return whole;
 }
 
+PathSettings settings_of(scene::PathIntegrator const& i) {
+    PathSettings s{i.strategy, depth_limit(i.depth), uint32_t(i.roulette_depth), 1,
+                   i.full_materials};
+    s.light_samples = uint32_t(i.light_samples);
+    if (!i.controls) return without_controls(s);
+    s.caustics = i.caustics;
+    s.secondary_specular = i.secondary_specular;
+    s.secondary_roughness = i.secondary_roughness;
+    if (i.indirect_clamp > 0) s.indirect_clamp = i.indirect_clamp;
+    return s;
+}
+template <class Type>
+PathSettings settings_of(scene::NamedPathIntegrator<Type> const& i) {
+    return {Type::strategy, depth_limit(i.depth), PathSettings().roulette_depth};
+}
+PathSettings settings_of(scene::DirectIntegrator const&) { return {scene::Strategy::nee, 2, 2}; }
+
+/// Returns how the integrator's paths go; of integrators that follow no light nobody asks more
+/// than the default's footprints.
 PathSettings path_settings(scene::Integrator const& integrator) {
-    return std::visit(Overloaded{
-                          [](scene::PathIntegrator const& i) {
-                              PathSettings s{i.strategy, depth_limit(i.depth),
-                                             uint32_t(i.roulette_depth), 1, i.full_materials};
-                              s.light_samples = uint32_t(i.light_samples);
-                              if (!i.controls) return without_controls(s);
-                              s.caustics = i.caustics;
-                              s.secondary_specular = i.secondary_specular;
-                              s.secondary_roughness = i.secondary_roughness;
-                              if (i.indirect_clamp > 0) s.indirect_clamp = i.indirect_clamp;
-                              return s;
-                          },
-                          []<class Type>(scene::NamedPathIntegrator<Type> const& i) {
-                              return PathSettings{Type::strategy, depth_limit(i.depth),
-                                                  PathSettings().roulette_depth};
-                          },
-                          [](scene::DirectIntegrator const&) {
-                              return PathSettings{scene::Strategy::nee, 2, 2};
-                          },
-                          [](auto const&) { return PathSettings(); },
-                      },
-                      integrator);
+    return match(integrator, []<class I>(I const& i) {
+        if constexpr (scene::FollowsLight<I>)
+            return settings_of(i);
+        else
+            return PathSettings();
+    });
 }
 
 film::Filter make_filter(scene::RenderTarget const& target) {
@@ -141,11 +144,7 @@ Color PixelRenderer::trace(scene::AlbedoIntegrator const&, world::Ray const& ray
         .bsdf.albedo(-ray.direction);
 }
 
-bool PixelRenderer::follows_light() const {
-    return match(integrator_, [](auto const& i) {
-        return requires { i.outputs; };
-    });
-}
+bool PixelRenderer::follows_light() const { return scene::outputs_of(integrator_) != nullptr; }
 
 world::Ray PixelRenderer::camera_ray(Vec2i pixel, sampling::SampleStream const& u) const {
     using sampling::Dimension;
@@ -163,8 +162,8 @@ Color PixelRenderer::sample(Vec2i pixel, uint32_t sample, film::SampleRecord* re
     world::Ray const ray = camera_ray(pixel, u);
     // That of a path's first vertex, so that all pictures of a scene see the same surfaces.
     uint32_t const alpha_seed = world_.has_alpha() ? u.walk(Dimension::Alpha, 1).next_uint() : 0;
-    return match(integrator_, [&](auto const& i) {
-        if constexpr (requires { trace(i, ray, alpha_seed); }) {
+    return match(integrator_, [&]<class I>(I const& i) {
+        if constexpr (!scene::FollowsLight<I>) {
             return trace(i, ray, alpha_seed);
         } else {
             if (record) record->clear();

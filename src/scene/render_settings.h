@@ -2,10 +2,12 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <string>
 #include <string_view>
 #include <variant>
 
+#include "base/match.h"
 #include "scene/aov.h"
 #include "scene/handles.h"
 #include "schema/describe.h"
@@ -258,6 +260,23 @@ struct MisType {
 using Integrator = std::variant<CameraIntegrator, AovIntegrator, NormalIntegrator, AlbedoIntegrator,
                                 DirectIntegrator, PathIntegrator,
                                 NamedPathIntegrator<PathtracerType>, NamedPathIntegrator<MisType>>;
+
+/// An integrator that follows light has AOVs and fills the film's records; any other draws one
+/// property of the first hit. Having `outputs` is what tells them apart, here and nowhere else.
+template <class I>
+concept FollowsLight = requires(I const& integrator) {
+    { integrator.outputs } -> std::same_as<Outputs const&>;
+};
+
+/// Returns what the integrator can make beside its picture; null where it does not follow light.
+inline Outputs const* outputs_of(Integrator const& integrator) {
+    return match(integrator, []<class I>(I const& i) -> Outputs const* {
+        if constexpr (FollowsLight<I>)
+            return &i.outputs;
+        else
+            return nullptr;
+    });
+}
 
 /// The picture that an integrator or a postprocess makes.
 struct ImageOutput {

@@ -113,10 +113,8 @@ int sample_count(scene::Sampler const& sampler) {
 }
 
 std::span<film::Aov const> wanted_aovs(scene::Integrator const& integrator) {
-    return match(integrator, [](auto const& i) -> std::span<film::Aov const> {
-        if constexpr (requires { i.outputs; }) return i.outputs.aovs;
-        return {};
-    });
+    scene::Outputs const* const outputs = scene::outputs_of(integrator);
+    return outputs ? std::span<film::Aov const>(outputs->aovs) : std::span<film::Aov const>();
 }
 
 film::Region region_of(world::World const& world, RenderOptions const& options) {
@@ -142,14 +140,14 @@ film::Layout make_layout(world::World const& world, io::RenderJob const& job,
     o.half_sums = options.half_sums || options.noise > 0;
     o.light_groups = tags.light_groups;
     o.layers = tags.layers;
-    match(job.integrator, [&](auto const& i) {
-        if constexpr (requires { i.outputs; })
-            o.cryptomatte_levels = i.outputs.cryptomatte_levels;
-        else if (!aovs.empty())
-            throw InputError(job.where, "expected an integrator that follows light for AOVs, found "
-                                        "<integrator type=\"" +
-                                            std::string(i.info.type) + "\">");
-    });
+    if (scene::Outputs const* const outputs = scene::outputs_of(job.integrator))
+        o.cryptomatte_levels = outputs->cryptomatte_levels;
+    else if (!aovs.empty())
+        throw InputError(
+            job.where,
+            "expected an integrator that follows light for AOVs, found <integrator type=\"" +
+                std::string(match(job.integrator, [](auto const& i) { return i.info.type; })) +
+                "\">");
     return film::Layout(aovs, std::move(o));
 }
 

@@ -36,17 +36,6 @@ struct MaterialLint {
     }
 };
 
-bool shows_light(scene::Integrator const& integrator) {
-    return std::visit(Overloaded{
-                          [](scene::CameraIntegrator const&) { return false; },
-                          [](scene::AovIntegrator const&) { return false; },
-                          [](scene::NormalIntegrator const&) { return false; },
-                          [](scene::AlbedoIntegrator const&) { return false; },
-                          [](auto const&) { return true; },
-                      },
-                      integrator);
-}
-
 } // namespace
 
 std::vector<std::string> lint_warnings(World const& world, scene::Integrator const& integrator,
@@ -67,7 +56,7 @@ std::vector<std::string> lint_warnings(World const& world, scene::Integrator con
     for (size_t i = 0; i < scene.materials.size(); ++i)
         if (std::string const lint = match(scene.materials[i], MaterialLint{scene}); !lint.empty())
             warnings.push_back(to_string(scene.material_locations[i]) + ": " + lint);
-    if (!shows_light(integrator)) return warnings;
+    if (!scene::outputs_of(integrator)) return warnings;
     if (!emits)
         warnings.push_back(to_string(where) +
                            ": the scene has no light: the picture will be black; add a <light>");

@@ -266,14 +266,15 @@ TEST(SampleRecord, TellsLightApart) {
     SampleRecord record(layout, tags);
     SampleSink sink(&record);
     PathSignature path;
-    sink.add({Color(1), -1, path, 1});                     // an emissive object
-    sink.add({Color(2), 0, path, -1, false, false, true}); // the background
+    sink.add({Color(1), -1, path, 1});                      // an emissive object
+    sink.add({Color(2), 0, path, -1, Found::InBackground}); // the background
     record.add_share(Component::Diffuse, 0, Color(0.25f));
     record.add_share(Component::Specular, 1, Color(0.75f));
-    sink.add({Color(4), 1, path, -1, true, true}); // a light sampled at the first surface
+    sink.add(
+        {Color(4), 1, path, -1, Found::SampledAtSurface}); // a light sampled at the first surface
     path.append(Bounce::Glossy);
     sink.add({Color(8), 2, path, 2});
-    sink.add({Color(16), 2, path, -1, true, true});
+    sink.add({Color(16), 2, path, -1, Found::SampledAtSurface});
     record.add_removed(Color(32));
     ASSERT_TRUE(record.finish());
     EXPECT_EQ(first_value(record, Aov::emission), 1);
