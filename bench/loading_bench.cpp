@@ -55,7 +55,7 @@ LoadingFigures measure_loading(std::string const& scene_file, std::string const&
         best(f.file_seconds, read_file(mesh_file));
         best(f.kernel_seconds, build_kernel(positions, mesh.triangles));
         Stopwatch const reading;
-        io::RenderJob const job = std::move(io::read_scene_file(scene_file).jobs.front());
+        scene::RenderJob const job = std::move(io::read_scene_file(scene_file).jobs.front());
         best(f.read_seconds, reading.stop().wall);
         Stopwatch const committing;
         auto const world = world::World::commit(job.scene);

@@ -49,7 +49,7 @@ RayCount count_rays(world::RayRecorder const& recorder) {
 
 RenderFigures measure_render(std::string const& scene_file, world::RayRecorder& recorder,
                              int rounds) {
-    io::RenderJob const job = std::move(io::read_scene_file(scene_file).jobs.front());
+    scene::RenderJob const job = std::move(io::read_scene_file(scene_file).jobs.front());
     auto const world = world::World::commit(
         job.scene, {.compensate = integrator::combines_strategies(job.integrator)});
     Vec2i const size = world->camera().size();

@@ -4,8 +4,8 @@
 #include <array>
 #include <filesystem>
 
+#include "base/file_bytes.h"
 #include "io/append.h"
-#include "io/file_bytes.h"
 #include "io/gltf_nodes.h"
 #include "io/gltf_view.h"
 #include "io/xml_document.h"
@@ -143,7 +143,7 @@ SceneFile read_gltf_scene(std::string const& path, std::shared_ptr<image::Textur
             contents.warnings.push_back(path + ": its lamps give less light than a dim room has: "
                                                "a studio is added");
     }
-    RenderJob job;
+    scene::RenderJob job;
     job.integrator = scene::PathIntegrator{};
     job.scene = std::move(scene);
     job.folder = fs::path(path).parent_path().string();

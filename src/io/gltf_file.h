@@ -7,7 +7,7 @@
 
 #include <memory>
 
-#include "io/file_bytes.h"
+#include "base/file_bytes.h"
 #include "io/gltf_json.h"
 
 namespace weft::io::gltf {

@@ -1,6 +1,6 @@
 #include "io/obj.h"
 
-#include "io/file_bytes.h"
+#include "base/file_bytes.h"
 #include "io/mesh_text.h"
 
 #include <array>

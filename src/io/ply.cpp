@@ -1,6 +1,6 @@
 #include "io/ply.h"
 
-#include "io/file_bytes.h"
+#include "base/file_bytes.h"
 #include "io/mesh_text.h"
 #include "io/ply_body.h"
 

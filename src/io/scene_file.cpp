@@ -80,8 +80,8 @@ class JobReader {
   public:
     explicit JobReader(Document& document) : document_(document) {}
 
-    RenderJob read_integrator(XmlElement const& element) {
-        RenderJob job;
+    scene::RenderJob read_integrator(XmlElement const& element) {
+        scene::RenderJob job;
         job.where = element.where;
         job.folder = element.folder;
         scene::Scene unused;
@@ -97,11 +97,11 @@ class JobReader {
         return job;
     }
 
-    PostprocessJob read_postprocess(XmlElement const& element, size_t jobs_before) {
+    scene::PostprocessJob read_postprocess(XmlElement const& element, size_t jobs_before) {
         scene::Scene unused;
         SceneBuilder builder(document_, unused);
-        PostprocessJob job{builder.read_variant<scene::Postprocess>(element), jobs_before,
-                           element.where};
+        scene::PostprocessJob job{builder.read_variant<scene::Postprocess>(element), jobs_before,
+                                  element.where};
         auto const pictures = scene::pictures_of(job.postprocess);
         for (auto const& [name, id] : pictures.inputs) {
             if (made_.contains(id.index)) continue;
@@ -120,14 +120,14 @@ class JobReader {
         return job;
     }
 
-    RenderJob read_test(XmlElement const& element) {
+    scene::RenderJob read_test(XmlElement const& element) {
         scene::Scene unused;
         SceneBuilder builder(document_, unused);
         auto const test = builder.read_variant<std::variant<scene::ImageTest>>(element);
         if (element.get("id").empty())
             throw InputError(element.where,
                              "<test> expects an id: it names the reference ID_ref.exr");
-        RenderJob job = read_integrator(*builder.integrator_element);
+        scene::RenderJob job = read_integrator(*builder.integrator_element);
         job.test = std::get<scene::ImageTest>(test);
         job.image_name = picture_name(element);
         return job;
@@ -155,8 +155,8 @@ class JobReader {
     }
 
     /// A file without an integrator: `path` with its defaults.
-    RenderJob default_job(XmlElement const& scene) {
-        RenderJob job;
+    scene::RenderJob default_job(XmlElement const& scene) {
+        scene::RenderJob job;
         job.integrator = scene::PathIntegrator{};
         job.scene = read_scene(scene);
         job.image_name = picture_name(scene);
@@ -198,16 +198,17 @@ void check_unused(Document& document, XmlElement const& element) {
 
 void check_image_names(SceneFile& file) {
     std::map<std::pair<std::string, std::string>, std::string> writers;
-    auto check = [&](PictureName const& picture, SourceLocation const& where, char const* tag) {
+    auto check = [&](scene::PictureName const& picture, SourceLocation const& where,
+                     char const* tag) {
         auto const [it, fresh] = writers.emplace(std::pair(picture.folder, picture.name),
                                                  tag + (" at " + to_string(where)));
         if (!fresh)
             file.warnings.push_back(to_string(where) + ": writes the same picture '" +
                                     picture.name + ".exr' as the " + it->second);
     };
-    for (RenderJob const& job : file.jobs)
+    for (scene::RenderJob const& job : file.jobs)
         if (!job.test) check({job.image_name, job.folder, {}, {}}, job.where, "integrator");
-    for (PostprocessJob const& job : file.postprocesses)
+    for (scene::PostprocessJob const& job : file.postprocesses)
         check(file.pictures[size_t(scene::pictures_of(job.postprocess).output.index)], job.where,
               "postprocess");
 }

@@ -2,51 +2,19 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "base/error.h"
 #include "image/texture_cache.h"
-#include "scene/display.h"
-#include "scene/postprocess.h"
-#include "scene/scene.h"
+#include "scene/job.h"
 #include "schema/schema.h"
 
 namespace weft::io {
 
-/// One integrator of a file, with the scene that it renders.
-struct RenderJob {
-    scene::Integrator integrator;
-    scene::RenderTarget target;
-    scene::Sampler sampler;
-    std::shared_ptr<scene::Scene const> scene;
-    std::string image_name; ///< the id of its <image>, of its <test>, or ""
-    std::string folder;     ///< of the file; "" is the current one
-    std::optional<scene::ImageTest> test;
-    SourceLocation where;
-};
-
-/// One postprocess of a file. Its ImageIds and those of the jobs' targets are indices into
-/// `SceneFile::pictures`; what it reads is made by a job or postprocess that comes before it.
-struct PostprocessJob {
-    scene::Postprocess postprocess;
-    size_t jobs_before = 0; ///< how many of the file's jobs come before it
-    SourceLocation where;
-};
-
-/// What an <image> of a file is called, which folder it goes to, and how it is shown.
-struct PictureName {
-    std::string name;             ///< the id
-    std::string folder;           ///< of the file; "" is the current one
-    scene::Display display;       ///< the default one where the file has none
-    SourceLocation display_where; ///< of its <display>; empty where there is none
-};
-
 struct SceneFile {
-    std::vector<RenderJob> jobs;               ///< in file order
-    std::vector<PostprocessJob> postprocesses; ///< in file order
-    std::vector<PictureName> pictures;
+    std::vector<scene::RenderJob> jobs;               ///< in file order
+    std::vector<scene::PostprocessJob> postprocesses; ///< in file order
+    std::vector<scene::PictureName> pictures;
     std::vector<std::string> warnings;
     std::shared_ptr<image::TextureCache> textures; ///< through which the scenes' images were read
 };

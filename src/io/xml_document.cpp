@@ -5,7 +5,7 @@
 #include <pugixml.hpp>
 #include <set>
 
-#include "io/file_bytes.h"
+#include "base/file_bytes.h"
 
 namespace weft::io {
 

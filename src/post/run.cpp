@@ -4,7 +4,7 @@
 
 namespace weft::post {
 
-Picture run(io::PostprocessJob const& job, Pictures const& pictures) {
+Picture run(scene::PostprocessJob const& job, Pictures const& pictures) {
     auto const ids = scene::pictures_of(job.postprocess);
     Picture result;
     for (auto const& [name, id] : ids.inputs)

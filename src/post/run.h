@@ -7,7 +7,7 @@
 #include <map>
 
 #include "image/image.h"
-#include "io/scene_file.h"
+#include "scene/job.h"
 
 namespace weft::post {
 
@@ -22,6 +22,6 @@ using Pictures = std::map<int32_t, Picture>;
 /// Makes the picture that `job` describes. All that it reads must be in `pictures`. Its metadata is
 /// that of its `input`, and "weft:postprocess" says how it was made. Throws InputError, with the
 /// place of the job, where its pictures do not go together or it cannot be done on this machine.
-Picture run(io::PostprocessJob const& job, Pictures const& pictures);
+Picture run(scene::PostprocessJob const& job, Pictures const& pictures);
 
 } // namespace weft::post

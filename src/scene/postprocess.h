@@ -7,9 +7,7 @@
 //     `image` (ImageId, required) is the picture that it makes; every other ImageId member is a
 //     picture that it reads. The reader of scene files knows nothing more about it.
 //  2. a place in the variant `Postprocess`.
-//  3. `image::Image apply(scene::Kind const&, Inputs const&)` in src/post (see post/run.h), named
-//  in
-//     post/apply.h.
+//  3. `Applied apply(scene::Kind const&, Inputs const&)`, declared in post/apply.h.
 //
 // Schema, help, reference pages, round-trip tests, the check that inputs come first, and files
 // follow from that.

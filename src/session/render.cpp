@@ -130,7 +130,7 @@ film::Region region_of(world::World const& world, RenderOptions const& options) 
     return c;
 }
 
-film::Layout make_layout(world::World const& world, io::RenderJob const& job,
+film::Layout make_layout(world::World const& world, scene::RenderJob const& job,
                          RenderOptions const& options) {
     film::SceneTags const tags = scene_tags(world);
     auto const from_scene = wanted_aovs(job.integrator);
@@ -154,13 +154,13 @@ film::Layout make_layout(world::World const& world, io::RenderJob const& job,
 /// Where a render without an own number of samples ends at the latest.
 constexpr uint32_t kMostSamples = 1 << 16;
 
-uint32_t sample_limit(io::RenderJob const& job, RenderOptions const& options) {
+uint32_t sample_limit(scene::RenderJob const& job, RenderOptions const& options) {
     if (options.spp > 0) return uint32_t(options.spp);
     return options.noise > 0 || options.seconds > 0 ? kMostSamples
                                                     : uint32_t(sample_count(job.sampler));
 }
 
-int footprint_samples(io::RenderJob const& job, RenderOptions const& options) {
+int footprint_samples(scene::RenderJob const& job, RenderOptions const& options) {
     return options.spp > 0 ? options.spp : sample_count(job.sampler);
 }
 
@@ -277,7 +277,7 @@ RenderState state_of(RenderResult const& result, Identity const& identity,
 
 } // namespace
 
-RenderState starting_state(world::World const& world, io::RenderJob const& job,
+RenderState starting_state(world::World const& world, scene::RenderJob const& job,
                            RenderOptions const& options) {
     RenderResult fresh;
     fresh.samples = sample_limit(job, options);
@@ -285,14 +285,14 @@ RenderState starting_state(world::World const& world, io::RenderJob const& job,
     return to_state(std::move(fresh), world, job, options);
 }
 
-RenderState to_state(RenderResult&& result, world::World const& world, io::RenderJob const& job,
+RenderState to_state(RenderResult&& result, world::World const& world, scene::RenderJob const& job,
                      RenderOptions const& options) {
     RenderState state = state_of(result, identify(world, job, options), options);
     state.film = std::move(result.film);
     return state;
 }
 
-RenderResult render(world::World const& world, io::RenderJob const& job,
+RenderResult render(world::World const& world, scene::RenderJob const& job,
                     RenderOptions const& options) {
     RenderResult result;
     result.region = region_of(world, options);

@@ -17,7 +17,7 @@
 #include "base/profiler.h"
 #include "film/film.h"
 #include "image/image.h"
-#include "io/scene_file.h"
+#include "scene/job.h"
 #include "session/tiles.h"
 #include "world/world.h"
 
@@ -108,22 +108,22 @@ film::Region region_of(world::World const& world, RenderOptions const& options);
 
 /// The channels that the film will have. Throws InputError where AOVs are asked of an integrator
 /// that follows no light.
-film::Layout make_layout(world::World const& world, io::RenderJob const& job,
+film::Layout make_layout(world::World const& world, scene::RenderJob const& job,
                          RenderOptions const& options);
 
 /// The samples per pixel that the render makes at most.
-uint32_t sample_limit(io::RenderJob const& job, RenderOptions const& options);
+uint32_t sample_limit(scene::RenderJob const& job, RenderOptions const& options);
 
 /// The samples per pixel that texture footprints are made for.
-int footprint_samples(io::RenderJob const& job, RenderOptions const& options);
+int footprint_samples(scene::RenderJob const& job, RenderOptions const& options);
 
 /// Everything about a result that a state file keeps, its film moved out.
-RenderState to_state(RenderResult&& result, world::World const& world, io::RenderJob const& job,
+RenderState to_state(RenderResult&& result, world::World const& world, scene::RenderJob const& job,
                      RenderOptions const& options);
 
 /// Throws InputError where the crop lies outside of the picture, memory cannot hold it, or AOVs are
 /// asked of an integrator that follows no light.
-RenderResult render(world::World const& world, io::RenderJob const& job,
+RenderResult render(world::World const& world, scene::RenderJob const& job,
                     RenderOptions const& options);
 
 } // namespace weft::session

@@ -8,10 +8,11 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "base/file_bytes.h"
 #include "base/hash.h"
 #include "image/atomic_file.h"
-#include "io/file_bytes.h"
 #include "scene/scene_hash.h"
+#include "schema/text.h"
 #include "session/adaptive.h"
 
 namespace weft::session {
@@ -96,7 +97,7 @@ std::string channels_text(film::Layout const& layout) {
 }
 
 /// The samples per pixel that they are made for, where those are others than the picture's.
-std::string footprint_text(io::RenderJob const& job, RenderOptions const& options) {
+std::string footprint_text(scene::RenderJob const& job, RenderOptions const& options) {
     int const samples = footprint_samples(job, options);
     return uint32_t(samples) == sample_limit(job, options)
                ? "as samples per pixel"
@@ -115,7 +116,7 @@ bool is_finished(RenderState const& s) {
 
 } // namespace
 
-Identity identify(world::World const& world, io::RenderJob const& job,
+Identity identify(world::World const& world, scene::RenderJob const& job,
                   RenderOptions const& options) {
     film::Region const region = region_of(world, options);
     Vec2i const size = world.camera().size();
@@ -197,9 +198,7 @@ void save_state(std::string const& path, RenderState const& state) {
     });
 }
 
-RenderState load_state(std::string const& path) {
-    return read_state(io::read_file(path).view(), path);
-}
+RenderState load_state(std::string const& path) { return read_state(read_file(path).view(), path); }
 
 namespace {
 

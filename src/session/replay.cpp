@@ -82,7 +82,8 @@ std::string event_text(world::World const& world, PathEvent const& e, int& verte
 
 } // namespace
 
-Replay replay(world::World const& world, io::RenderJob const& job, ReplayOptions const& options) {
+Replay replay(world::World const& world, scene::RenderJob const& job,
+              ReplayOptions const& options) {
     Vec2i const size = world.camera().size(), p = options.pixel;
     if (p.x < 0 || p.y < 0 || p.x >= size.x || p.y >= size.y)
         throw InputError(fmt::format("--pixel expects a pixel inside of the picture of {} x {}, "

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "film/path_log.h"
-#include "io/scene_file.h"
+#include "scene/job.h"
 #include "world/world.h"
 
 namespace weft::session {
@@ -22,7 +22,7 @@ struct Replay {
 
 /// Throws InputError for a pixel outside of the picture and for an integrator that follows no
 /// light.
-Replay replay(world::World const& world, io::RenderJob const& job, ReplayOptions const& options);
+Replay replay(world::World const& world, scene::RenderJob const& job, ReplayOptions const& options);
 
 /// For a terminal: each vertex with its object and material, how the path went on, and what light
 /// it gained there.

@@ -2,7 +2,7 @@
 //
 //   clang++ -std=c++20 -g -O1 -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined \
 //       -Isrc -I/usr/include/Imath tests/fuzz/fuzz_ies.cpp src/base/error.cpp src/io/ies.cpp \
-//       src/io/mesh_text.cpp src/io/file_bytes.cpp src/schema/text.cpp -lfmt -o fuzz_ies
+//       src/io/mesh_text.cpp src/base/file_bytes.cpp src/schema/text.cpp -lfmt -o fuzz_ies
 //   ./fuzz_ies -max_len=4096 -malloc_limit_mb=64 CORPUS tests/io/ies tests/io/bad
 #include "base/error.h"
 #include "io/ies.h"

@@ -2,7 +2,7 @@
 //
 //   clang++ -std=c++20 -g -O1 -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined \
 //       -Isrc -I/usr/include/Imath tests/fuzz/fuzz_ply.cpp src/base/error.cpp src/scene/mesh.cpp \
-//       src/io/ply*.cpp src/io/mesh_text.cpp src/io/file_bytes.cpp -o fuzz_ply
+//       src/io/ply*.cpp src/io/mesh_text.cpp src/base/file_bytes.cpp -o fuzz_ply
 //   ./fuzz_ply -max_len=4096 -malloc_limit_mb=64 CORPUS tests/io/bad
 #include "io/ply.h"
 

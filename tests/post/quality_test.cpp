@@ -38,7 +38,7 @@ class DenoisingQuality : public ::testing::TestWithParam<QualityCase> {
     /// `--aov denoise_albedo,denoise_normal` brings.
     image::Image render() const {
         std::string const path = std::string(WEFT_SOURCE_DIR) + "/scenes/" + GetParam().scene;
-        io::RenderJob const job = io::read_scene_file(path).jobs.at(0);
+        scene::RenderJob const job = io::read_scene_file(path).jobs.at(0);
         auto const world = world::World::commit(job.scene, {"", {160, 120}});
         session::RenderOptions options;
         options.spp = 32;

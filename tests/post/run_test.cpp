@@ -1,6 +1,7 @@
 // Postprocesses of a scene file, on pictures in memory.
 #include <gtest/gtest.h>
 
+#include "io/scene_file.h"
 #include "post/denoise.h"
 #include "post/run.h"
 #include "tests/post/pictures.h"

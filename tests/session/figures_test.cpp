@@ -12,7 +12,7 @@ using namespace weft::testing;
 
 std::string const kFolder = std::string(WEFT_SOURCE_DIR) + "/scenes/figures/";
 
-RenderResult render_figure(world::World const& world, io::RenderJob const& job, int spp,
+RenderResult render_figure(world::World const& world, scene::RenderJob const& job, int spp,
                            uint32_t seed) {
     RenderOptions options;
     options.spp = spp;

@@ -36,7 +36,7 @@ class TemporaryFolder {
 /// A job whose scene holds `contents`, and the world made of it. Attributes of the integrator and
 /// the sampler are given as in a file.
 struct TestScene {
-    io::RenderJob job;
+    scene::RenderJob job;
     std::unique_ptr<world::World const> world;
 };
 

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "apps/weft/described_options.h"
-#include "io/scene_file.h"
 #include "post/display.h"
+#include "scene/display.h"
 
 namespace weft::apps {
 

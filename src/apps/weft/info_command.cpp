@@ -28,7 +28,7 @@ void print_textures(image::TextureStatistics const& s) {
 int run(Arguments const& args) {
     io::SceneFile const file =
         io::read_scene_file(args.scene, {}, make_texture_cache(args.textures));
-    for (io::RenderJob const& job : file.jobs) {
+    for (scene::RenderJob const& job : file.jobs) {
         auto const world = world::World::commit(job.scene);
         world::WorldStatistics const& s = world->statistics();
         Vec2i const size = world->camera().size();

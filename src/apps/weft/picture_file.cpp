@@ -8,6 +8,7 @@
 #include "film/cryptomatte.h"
 #include "image/write.h"
 #include "scene/scene_hash.h"
+#include "schema/text.h"
 
 namespace weft::apps {
 
@@ -105,7 +106,7 @@ image::Metadata plain_texts(image::ExrHeader const& header) {
     return result;
 }
 
-image::ExrHeader picture_header(session::RenderResult const& result, io::RenderJob const& job,
+image::ExrHeader picture_header(session::RenderResult const& result, scene::RenderJob const& job,
                                 world::World const& world, uint32_t seed) {
     return make_header(result, *job.scene, world.camera().size(), seed);
 }

@@ -11,7 +11,7 @@
 namespace weft::apps {
 
 /// What a picture's file says beside its channels: what made it, how far it got, its camera.
-image::ExrHeader picture_header(session::RenderResult const& result, io::RenderJob const& job,
+image::ExrHeader picture_header(session::RenderResult const& result, scene::RenderJob const& job,
                                 world::World const& world, uint32_t seed);
 
 /// An EXR gets all channels of the film and the whole header; any other file the beauty, with alpha

@@ -24,14 +24,14 @@ void write_picture(std::vector<std::string> const& paths, post::Picture const& p
     }
 }
 
-io::PictureName const& output_of(io::SceneFile const& file, io::PostprocessJob const& job) {
+scene::PictureName const& output_of(io::SceneFile const& file, scene::PostprocessJob const& job) {
     return file.pictures[size_t(scene::pictures_of(job.postprocess).output.index)];
 }
 
 /// Whether a picture is an input of a postprocess from `next` on.
-bool is_read(int32_t picture, std::vector<io::PostprocessJob>::const_iterator next,
+bool is_read(int32_t picture, std::vector<scene::PostprocessJob>::const_iterator next,
              io::SceneFile const& file) {
-    return std::any_of(next, file.postprocesses.end(), [&](io::PostprocessJob const& job) {
+    return std::any_of(next, file.postprocesses.end(), [&](scene::PostprocessJob const& job) {
         auto const inputs = scene::pictures_of(job.postprocess).inputs;
         return std::any_of(inputs.begin(), inputs.end(),
                            [&](auto const& input) { return input.second.index == picture; });
@@ -47,7 +47,7 @@ std::map<int32_t, post::DisplayChain> display_chains(RenderArguments const& a,
         chains.emplace(int32_t(i), display_chain(a.display, file.pictures[i].display,
                                                  file.pictures[i].display_where));
     if (std::any_of(file.jobs.begin(), file.jobs.end(),
-                    [](io::RenderJob const& job) { return !job.target.image; }))
+                    [](scene::RenderJob const& job) { return !job.target.image; }))
         chains.emplace(-1, display_chain(a.display));
     std::set<std::string> told;
     for (auto const& [picture, chain] : chains)
@@ -65,7 +65,7 @@ struct Final {
 /// there are several.
 Final final_picture(RenderArguments const& a, io::SceneFile const& file, bool whole) {
     std::vector<std::pair<int32_t, std::string>> finals;
-    for (io::RenderJob const& job : file.jobs)
+    for (scene::RenderJob const& job : file.jobs)
         if (!whole || !is_read(job.target.image.index, file.postprocesses.begin(), file))
             finals.emplace_back(job.target.image.index, job.image_name);
     for (auto job = file.postprocesses.begin(); whole && job != file.postprocesses.end(); ++job) {
@@ -92,13 +92,13 @@ int run_file(RenderArguments& a, io::SceneFile const& file, ProgressLine& progre
     bool const whole = a.options.part.is_whole();
     Final const final = final_picture(a, file, whole);
     auto const is_final = [&](int32_t image) { return final.known && final.image == image; };
-    auto const paths_of = [&](io::PostprocessJob const& job) {
+    auto const paths_of = [&](scene::PostprocessJob const& job) {
         int32_t const output = scene::pictures_of(job.postprocess).output.index;
         return output_paths(a, output_of(file, job), is_final(output));
     };
     if (!whole && !file.postprocesses.empty())
         fmt::print(stderr, "warning: postprocesses need the whole picture and are left out\n");
-    for (io::PostprocessJob const& job : file.postprocesses)
+    for (scene::PostprocessJob const& job : file.postprocesses)
         for (std::string const& path : paths_of(job))
             if (whole) image::check_writable(path);
     post::Pictures pictures;

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// What cannot be had together.
-void check_part(RenderArguments const& a, io::RenderJob const& job) {
+void check_part(RenderArguments const& a, scene::RenderJob const& job) {
     session::Part const& part = a.options.part;
     if (part.is_whole()) return;
     if (a.options.noise > 0 || a.options.seconds > 0)
@@ -66,7 +66,7 @@ void check_outputs(std::vector<std::string> const& paths, session::Part const& p
 }
 
 /// AOVs need a file that can hold them.
-void check_aovs(RenderArguments const& a, io::RenderJob const& job,
+void check_aovs(RenderArguments const& a, scene::RenderJob const& job,
                 std::vector<std::string> const& paths) {
     if (!a.options.part.is_whole()) return;
     bool const wanted = !a.options.aovs.empty() || !session::wanted_aovs(job.integrator).empty();
@@ -93,7 +93,7 @@ void check_checkpoint_file(RenderArguments const& a, std::vector<std::string> co
 }
 
 void write_part(std::vector<std::string> const& paths, session::RenderResult&& result,
-                world::World const& world, io::RenderJob const& job,
+                world::World const& world, scene::RenderJob const& job,
                 session::RenderOptions const& options) {
     std::string note = header_text(picture_header(result, job, world, options.seed));
     session::RenderState state = session::to_state(std::move(result), world, job, options);
@@ -107,7 +107,7 @@ void write_part(std::vector<std::string> const& paths, session::RenderResult&& r
 /// Writes what there is, says what was reached, and returns the exit code; `made` becomes the
 /// picture.
 int finish(session::RenderOptions const& options, std::vector<std::string> const& paths,
-           io::RenderJob const& job, world::World const& world, post::DisplayChain const& chain,
+           scene::RenderJob const& job, world::World const& world, post::DisplayChain const& chain,
            ProgressLine& progress, session::RenderResult&& result, post::Picture& made) {
     report_bad_samples(result.bad_samples, result.first_bad_samples, std::to_string(options.seed));
     bool const whole = options.part.is_whole();
@@ -157,7 +157,7 @@ session::Part parse_part(std::string const& shard, std::string const& samples) {
     return part;
 }
 
-std::vector<std::string> output_paths(RenderArguments const& a, io::PictureName const& picture,
+std::vector<std::string> output_paths(RenderArguments const& a, scene::PictureName const& picture,
                                       bool final) {
     std::string const name =
         (picture.name.empty() ? fs::path(a.scene).stem().string() : picture.name) +
@@ -172,7 +172,7 @@ std::vector<std::string> output_paths(RenderArguments const& a, io::PictureName 
     return paths;
 }
 
-int render_job(RenderArguments const& a, io::RenderJob const& job, bool final, bool only_picture,
+int render_job(RenderArguments const& a, scene::RenderJob const& job, bool final, bool only_picture,
                image::TextureCache const& textures, post::DisplayChain const& chain,
                ProgressLine& progress, post::Picture& made) {
     auto const paths = output_paths(a, {job.image_name, job.folder, {}, {}}, final);

@@ -30,7 +30,7 @@ struct RenderArguments {
 
 /// Where a picture goes: NAME.exr beside the scene or in the folders that the user asked for; files
 /// that the user asked for get the `final` picture alone, so that others may go nowhere.
-std::vector<std::string> output_paths(RenderArguments const& a, io::PictureName const& picture,
+std::vector<std::string> output_paths(RenderArguments const& a, scene::PictureName const& picture,
                                       bool final);
 
 /// "K/N" of --shard and "A:B" of --samples, either of which may be empty. Throws InputError.
@@ -38,7 +38,7 @@ session::Part parse_part(std::string const& shard, std::string const& samples);
 
 /// Renders and writes `job`; `made` becomes the picture. `final`: files of -o are for this picture;
 /// `only_picture`: the scene makes no other. Returns the program's exit code.
-int render_job(RenderArguments const& a, io::RenderJob const& job, bool final, bool only_picture,
+int render_job(RenderArguments const& a, scene::RenderJob const& job, bool final, bool only_picture,
                image::TextureCache const& textures, post::DisplayChain const& chain,
                ProgressLine& progress, post::Picture& made);
 

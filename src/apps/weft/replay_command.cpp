@@ -34,7 +34,7 @@ int run(ReplayArguments& a) {
     a.options.sample = uint32_t(a.sample);
     io::SceneFile const file =
         io::read_scene_file(a.scene, a.overrides, make_texture_cache(a.textures));
-    for (io::RenderJob const& job : file.jobs) {
+    for (scene::RenderJob const& job : file.jobs) {
         auto const world = commit_world(job, a.isa, a.size);
         session::Replay const replay = session::replay(*world, job, a.options);
         if (file.jobs.size() > 1) fmt::print("{}\n", job.image_name);

@@ -13,7 +13,8 @@ Vec2i parse_size(std::string const& text, scene::Scene const& scene);
 
 /// The world that `job` is rendered in: every command that traces its paths makes this one. `isa`
 /// and `size` as the options of these names.
-std::unique_ptr<world::World const>
-commit_world(io::RenderJob const& job, std::string const& isa = "", std::string const& size = "");
+std::unique_ptr<world::World const> commit_world(scene::RenderJob const& job,
+                                                 std::string const& isa = "",
+                                                 std::string const& size = "");
 
 } // namespace weft::apps

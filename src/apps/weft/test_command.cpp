@@ -44,7 +44,7 @@ void judge(std::string const& folder, std::string const& name, image::Image cons
     ++(passed ? tally.passed : tally.failed);
 }
 
-void run_test(io::RenderJob const& job, session::RenderOptions const& options, Tally& tally) {
+void run_test(scene::RenderJob const& job, session::RenderOptions const& options, Tally& tally) {
     image::check_writable(path_of(job.folder, job.image_name, "_test.exr"));
     image::read_image(path_of(job.folder, job.image_name, "_ref.exr"));
     auto const world = commit_world(job);
@@ -53,7 +53,7 @@ void run_test(io::RenderJob const& job, session::RenderOptions const& options, T
 }
 
 /// Whether the picture of a postprocess has a reference, and so is a test.
-bool is_tested(io::PictureName const& picture) {
+bool is_tested(scene::PictureName const& picture) {
     return fs::exists(path_of(picture.folder, picture.name, "_ref.exr"));
 }
 
@@ -64,7 +64,7 @@ void run_postprocess_tests(io::SceneFile const& file, session::RenderOptions con
     auto next = file.postprocesses.begin();
     double seconds = 0;
     for (size_t i = 0; i < file.jobs.size(); ++i) {
-        io::RenderJob const& job = file.jobs[i];
+        scene::RenderJob const& job = file.jobs[i];
         if (!job.test) {
             auto const world = commit_world(job);
             session::RenderResult result = session::render(*world, job, options);
@@ -73,7 +73,7 @@ void run_postprocess_tests(io::SceneFile const& file, session::RenderOptions con
         }
         for (; next != file.postprocesses.end() && next->jobs_before == i + 1; ++next) {
             int32_t const output = scene::pictures_of(next->postprocess).output.index;
-            io::PictureName const& name = file.pictures[size_t(output)];
+            scene::PictureName const& name = file.pictures[size_t(output)];
             pictures[output] = post::run(*next, pictures);
             if (is_tested(name))
                 judge(name.folder, name.name, pictures[output].image, {}, seconds, tally);
@@ -85,15 +85,15 @@ void run_postprocess_tests(io::SceneFile const& file, session::RenderOptions con
 void run_file(io::SceneFile const& file, std::string const& name,
               session::RenderOptions const& options, Tally& tally) {
     int tests = 0;
-    for (io::RenderJob const& job : file.jobs)
+    for (scene::RenderJob const& job : file.jobs)
         if (job.test) {
             ++tests;
             run_test(job, options, tally);
         }
     std::string references;
     bool tested = false;
-    for (io::PostprocessJob const& job : file.postprocesses) {
-        io::PictureName const& picture =
+    for (scene::PostprocessJob const& job : file.postprocesses) {
+        scene::PictureName const& picture =
             file.pictures[size_t(scene::pictures_of(job.postprocess).output.index)];
         tested |= is_tested(picture);
         references += " or " + path_of(picture.folder, picture.name, "_ref.exr");

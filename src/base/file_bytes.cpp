@@ -1,4 +1,4 @@
-#include "io/file_bytes.h"
+#include "base/file_bytes.h"
 
 #include "base/error.h"
 
@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-namespace weft::io {
+namespace weft {
 
 namespace {
 
@@ -52,4 +52,4 @@ FileBytes read_file(std::string const& path) {
     return {std::move(data), size};
 }
 
-} // namespace weft::io
+} // namespace weft

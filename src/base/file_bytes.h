@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-namespace weft::io {
+namespace weft {
 
 class FileBytes {
   public:
@@ -27,4 +27,4 @@ class FileBytes {
 /// missing, not readable, or not a regular file.
 FileBytes read_file(std::string const& path);
 
-} // namespace weft::io
+} // namespace weft
