@@ -9,18 +9,12 @@ namespace {
 using film::Component;
 using lobes::LobeFlags;
 
-/// Lobes of less are taken for mirrors by the guides of denoisers; that of Cycles.
-constexpr float kNarrowAlpha = 0.075f;
+/// The guides of denoisers take lobes of less width for mirrors. The value is that of Cycles.
+constexpr float kNarrowWidth = 0.075f;
 /// Where mirrors do at least this part of the scattering, the guides are what is seen in them.
 constexpr float kMirrorShare = 0.75f;
 
-bool is_narrow(lobes::Lobe const& lobe) {
-    return match(lobe.kind, [](auto const& l) {
-        if constexpr (requires { l.distribution.alpha_x; })
-            return std::max(l.distribution.alpha_x, l.distribution.alpha_y) < kNarrowAlpha;
-        return any(l.flags(), LobeFlags::Delta);
-    });
-}
+bool is_narrow(lobes::Lobe const& lobe) { return width_of(lobe) < kNarrowWidth; }
 
 /// The part of the scattering that lobes like mirrors do.
 float mirror_share(lobes::Bsdf const& bsdf) {

@@ -58,6 +58,10 @@ struct Lobe {
 inline LobeFlags flags_of(Lobe const& lobe) {
     return match(lobe.kind, [](auto const& l) { return l.flags(); });
 }
+/// How wide the lobe is, in [0, 1]; see lobe.h.
+inline float width_of(Lobe const& lobe) {
+    return match(lobe.kind, [](auto const& l) { return l.width(); });
+}
 
 struct BsdfSample {
     Vec3 wi{0, 0, 0};
@@ -218,7 +222,7 @@ class Bsdf {
             return {s.wi, s.eta_scale, lobe.flags(), s.weight, s.probability};
         } else {
             Vec3 const wi = lobe.sample(wo, u);
-            return {wi, transmission_eta_scale(lobe, wi), lobe.flags()};
+            return {wi, eta_scale_towards(lobe, wi), lobe.flags()};
         }
     }
 

@@ -32,6 +32,8 @@ struct BurleyDiffuse {
     float roughness = 0.5f; ///< in [0, 1]
 
     static constexpr LobeFlags flags() { return LobeFlags::Reflection | LobeFlags::Diffuse; }
+    static constexpr float width() { return 1; }
+    static constexpr float eta_scale() { return 1; }
 
     LobeValue eval(Vec3 const& wo, Vec3 const& wi) const {
         float const pdf = cosine_hemisphere_pdf(wi.z);

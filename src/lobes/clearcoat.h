@@ -39,6 +39,9 @@ class Clearcoat {
           log_alpha2_(std::log(alpha2_)) {}
 
     static constexpr LobeFlags flags() { return LobeFlags::Reflection | LobeFlags::Glossy; }
+    /// The alpha of D, though half of its facets lean by more than its root.
+    float width() const { return std::sqrt(alpha2_); }
+    static constexpr float eta_scale() { return 1; }
 
     LobeValue eval(Vec3 const& wo, Vec3 const& wi) const {
         if (!(wi.z > 0)) return {};

@@ -17,6 +17,8 @@ inline constexpr int disney_sheen_cosines = 24;
 
 struct DisneySheen {
     static constexpr LobeFlags flags() { return LobeFlags::Reflection | LobeFlags::Diffuse; }
+    static constexpr float width() { return 1; }
+    static constexpr float eta_scale() { return 1; }
     LobeValue eval(Vec3 const& wo, Vec3 const& wi) const {
         if (!(wi.z > 0)) return {};
         float const m = std::max(1 - 0.5f * length(wo + wi), 0.f), m2 = m * m;

@@ -55,6 +55,9 @@ class Hair {
     static constexpr LobeFlags flags() {
         return LobeFlags::Reflection | LobeFlags::Transmission | LobeFlags::Glossy;
     }
+    /// However smooth, the round fibre sends light all around.
+    static constexpr float width() { return 1; }
+    static constexpr float eta_scale() { return 1; }
     LobeValue eval(Vec3 const& wo, Vec3 const& wi) const;
     Vec3 sample(Vec3 const& wo, Vec3 const& u) const;
     /// Exact.

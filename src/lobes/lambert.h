@@ -9,6 +9,8 @@ namespace weft::lobes {
 
 struct Lambert {
     static constexpr LobeFlags flags() { return LobeFlags::Reflection | LobeFlags::Diffuse; }
+    static constexpr float width() { return 1; }
+    static constexpr float eta_scale() { return 1; }
     LobeValue eval(Vec3 const&, Vec3 const& wi) const {
         float const pdf = cosine_hemisphere_pdf(wi.z);
         return {Color(pdf), pdf};

@@ -61,30 +61,36 @@ struct DeltaSample {
     float eta_scale = 1;   ///< eta^2 after transmission, else 1
 };
 
-/// A lobe with a density. `sample` takes u in [0, 1)^3 and gives the zero vector on failure
-/// (a direction the lobe cannot scatter to); the density then integrates to less than 1.
+/// What both sorts of lobes have. `width` is in [0, 1] and says how far the lobe
+/// spreads light, as the alpha of a microfacet distribution does: 0 for delta lobes, 1 for diffuse
+/// ones. Lobes that are wider in one direction than in another give the greater width.
 template <class L>
-concept SmoothLobe = requires(L const& lobe, Vec3 const& v) {
-    { lobe.eval(v, v) } -> std::same_as<LobeValue>;
-    { lobe.sample(v, v) } -> std::same_as<Vec3>;
+concept AnyLobe = requires(L const& lobe, Vec3 const& v) {
     { lobe.albedo(v) } -> std::same_as<Color>;
     { lobe.flags() } -> std::same_as<LobeFlags>;
+    { lobe.width() } -> std::same_as<float>;
+};
+
+/// A lobe with a density. `sample` takes u in [0, 1)^3 and gives the zero vector on failure
+/// (a direction the lobe cannot scatter to); the density then integrates to less than 1.
+/// `eta_scale` is eta^2 where the lobe transmits between two indices, else 1.
+template <class L>
+concept SmoothLobe = AnyLobe<L> && requires(L const& lobe, Vec3 const& v) {
+    { lobe.eval(v, v) } -> std::same_as<LobeValue>;
+    { lobe.sample(v, v) } -> std::same_as<Vec3>;
+    { lobe.eta_scale() } -> std::same_as<float>;
 };
 
 /// A lobe that scatters into finitely many directions.
 template <class L>
-concept DeltaLobe = requires(L const& lobe, Vec3 const& v) {
+concept DeltaLobe = AnyLobe<L> && requires(L const& lobe, Vec3 const& v) {
     { lobe.sample(v, v) } -> std::same_as<DeltaSample>;
-    { lobe.albedo(v) } -> std::same_as<Color>;
-    { lobe.flags() } -> std::same_as<LobeFlags>;
 };
 
-/// eta^2 where `lobe` transmits between two indices (a smooth lobe that does so has the member
-/// `eta_scale()`), else 1.
+/// The `eta_scale` of a sample of `lobe`: 1 where it reflects.
 template <SmoothLobe L>
-float transmission_eta_scale(L const& lobe, Vec3 const& wi) {
-    if constexpr (requires { lobe.eta_scale(); }) return wi.z < 0 ? lobe.eta_scale() : 1.f;
-    return 1;
+float eta_scale_towards(L const& lobe, Vec3 const& wi) {
+    return wi.z < 0 ? lobe.eta_scale() : 1.f;
 }
 
 } // namespace weft::lobes

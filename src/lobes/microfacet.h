@@ -58,6 +58,12 @@ inline float shadowing_across(float cos_o, float sigma_o, float cos_i, float sig
     return std::min(scaled_beta(lambda_o, lambda_i), 1.f);
 }
 
+/// The greater alpha of a distribution: its width where it is widest.
+template <class Distribution>
+float widest_alpha(Distribution const& d) {
+    return std::max(d.alpha_x, d.alpha_y);
+}
+
 struct Ggx {
     float alpha_x = 0.1f, alpha_y = 0.1f; ///< along local x and y
 

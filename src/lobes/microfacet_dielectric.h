@@ -36,9 +36,10 @@ class MicrofacetDielectric {
     static constexpr LobeFlags flags() {
         return LobeFlags::Reflection | LobeFlags::Transmission | LobeFlags::Glossy;
     }
+    float width() const { return widest_alpha(distribution_); }
+    float eta_scale() const { return square(eta_); }
     Distribution const& distribution() const { return distribution_; }
     float eta() const { return eta_; } ///< the one in use, off 1
-    float eta_scale() const { return square(eta_); }
     Color const& reflectance() const { return reflectance_; }
     Color const& transmittance() const { return transmittance_; }
     BoundaryOptions const& options() const { return options_; }

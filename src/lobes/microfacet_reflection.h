@@ -24,6 +24,8 @@ struct MicrofacetReflection {
     bool compensated = false; ///< for multiple scattering
 
     static constexpr LobeFlags flags() { return LobeFlags::Reflection | LobeFlags::Glossy; }
+    float width() const { return widest_alpha(distribution); }
+    static constexpr float eta_scale() { return 1; }
     LobeValue eval(Vec3 const& wo, Vec3 const& wi) const {
         if (!(wi.z > 0)) return {};
         Vec3 const h = normalize(wo + wi); // not 0: both have positive z

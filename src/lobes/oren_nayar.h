@@ -27,6 +27,8 @@ class OrenNayar {
           uniform_(std::pow(roughness, 0.1f)) {}
 
     static constexpr LobeFlags flags() { return LobeFlags::Reflection | LobeFlags::Diffuse; }
+    static constexpr float width() { return 1; }
+    static constexpr float eta_scale() { return 1; }
 
     LobeValue eval(Vec3 const& wo, Vec3 const& wi) const {
         if (!(wi.z > 0)) return {};

@@ -38,6 +38,8 @@ struct Sheen {
     float roughness = 0.5f; ///< in [0, 1]; 0 vanishes
 
     static constexpr LobeFlags flags() { return LobeFlags::Reflection | LobeFlags::Diffuse; }
+    static constexpr float width() { return 1; }
+    static constexpr float eta_scale() { return 1; }
 
     LobeValue eval(Vec3 const& wo, Vec3 const& wi) const {
         if (!(wi.z > 0)) return {};

@@ -17,6 +17,7 @@ struct SpecularDielectric {
     static constexpr LobeFlags flags() {
         return LobeFlags::Reflection | LobeFlags::Transmission | LobeFlags::Delta;
     }
+    static constexpr float width() { return 0; }
     DeltaSample sample(Vec3 const& wo, Vec3 const& u) const {
         float cos_t;
         auto const [reflected, transmitted] = tinted(wo.z, cos_t);

@@ -10,6 +10,7 @@ struct Transparent {
     static constexpr LobeFlags flags() {
         return LobeFlags::Transmission | LobeFlags::Delta | LobeFlags::Straight;
     }
+    static constexpr float width() { return 0; }
     DeltaSample sample(Vec3 const& wo, Vec3 const&) const {
         return {.wi = -wo, .weight = Color(1), .probability = 1};
     }

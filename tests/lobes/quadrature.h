@@ -21,7 +21,7 @@ Color quadrature_albedo(L const& lobe, Vec3 const& wo, int samples) {
         if (wi == Vec3(0)) continue;
         LobeValue const v = lobe.eval(wo, wi);
         if (!(v.pdf > 0)) continue;
-        Color const w = v.f * (transmission_eta_scale(lobe, wi) / v.pdf);
+        Color const w = v.f * (eta_scale_towards(lobe, wi) / v.pdf);
         sum += Vec3d(w.r, w.g, w.b);
     }
     return {float(sum.x / samples), float(sum.y / samples), float(sum.z / samples)};

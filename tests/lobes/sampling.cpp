@@ -68,7 +68,7 @@ std::array<weft::testing::Estimate, 3> monte_carlo_albedo(L const& lobe, Vec3 co
     for (int i = 0; i < samples; ++i) {
         Vec3 const wi = lobe.sample(wo, rng.next3());
         LobeValue const v = wi == Vec3(0) ? LobeValue{} : lobe.eval(wo, wi);
-        float const scale = v.pdf > 0 ? transmission_eta_scale(lobe, wi) / v.pdf : 0.f;
+        float const scale = v.pdf > 0 ? eta_scale_towards(lobe, wi) / v.pdf : 0.f;
         for (int k = 0; k < 3; ++k) values[size_t(k)].push_back(v.f[k] * scale);
     }
     return {weft::testing::estimate(values[0]), weft::testing::estimate(values[1]),

@@ -73,7 +73,7 @@ std::string fault(Configuration<L> const& c, Vec3 const& wo, Vec3 const& wi, Vec
     bool const at_an_end =
         u.x == 0 || u.y == 0 || u.x == kOneMinusEpsilon || u.y == kOneMinusEpsilon;
     if (!(v.pdf > 0) && !at_an_end) ++lost;
-    float const scale = transmission_eta_scale(lobe, sampled);
+    float const scale = eta_scale_towards(lobe, sampled);
     if (c.weighs_below_one && max_component(v.f) * scale > v.pdf * 1.01f &&
         max_component(lobe.albedo(wo)) == 1)
         return "a weight above 1 at " + text(sampled);
@@ -117,7 +117,7 @@ TEST(SmoothLobes, AreReciprocal) {
             float const flip = wi.z < 0 ? -1.f : 1.f;
             Vec3 const back_wo(wi.x, wi.y, flip * wi.z), back_wi(wo.x, wo.y, flip * wo.z);
             L const behind = wi.z < 0 ? seen_from_behind(c.lobe) : c.lobe;
-            float const eta = std::sqrt(transmission_eta_scale(c.lobe, wi));
+            float const eta = std::sqrt(eta_scale_towards(c.lobe, wi));
             Color const there = c.lobe.eval(wo, wi).f * (eta / std::abs(wi.z));
             Color const back = behind.eval(back_wo, back_wi).f * (1 / (eta * wo.z));
             for (int k = 0; k < 3; ++k) {

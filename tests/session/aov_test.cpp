@@ -390,6 +390,38 @@ TEST(Guides, FollowMirrorsAndGlass) {
     EXPECT_NEAR(c.at("denoise_normal.Z", 15, 5), -1, 1e-2);
 }
 
+TEST(Guides, FollowNearlySmoothSurfaces) {
+    // A lacquered black card at 45 degrees shows a red wall on the right; a ball of nearly smooth
+    // glass, which hardly bends light, is in front of a green one.
+    auto const guides = [](std::string const& glass) {
+        return Channels(
+            render_aovs(
+                R"(
+        <camera type="orthographic" width="20" height="10" scale="2"/>
+        <instance><shape type="rectangle"/><bsdf type="disney" baseColor="0" specular="0" clearcoat="1" clearcoatRoughness="0.05"/><transform><scale value="0.9"/><rotate axis="0,1,0" angle="-135"/><translate x="-1" z="2"/></transform></instance>
+        <instance><shape type="rectangle"/><bsdf type="diffuse" albedo="0.8,0.1,0.1"/><transform><scale value="9"/><rotate axis="0,1,0" angle="90"/><translate x="-7" z="0"/></transform></instance>
+        <instance><shape type="rectangle"/><bsdf type="diffuse" albedo="0.1,0.8,0.1"/><transform><scale value="9"/><rotate axis="0,1,0" angle="180"/><translate z="9"/></transform></instance>
+        <instance><shape type="sphere"/>)" +
+                    glass +
+                    R"(<transform><scale value="0.9"/><translate x="1" z="3"/></transform></instance>)",
+                {Aov::denoise_albedo}, 256)
+                .film);
+    };
+    for (std::string const glass :
+         {R"(<bsdf type="roughdielectric" ior="1.01" roughness="0.05"/>)",
+          R"(<bsdf type="roughdielectric" ior="1.01" roughness="0.2" distribution="beckmann"/>)",
+          R"(<bsdf type="microfacet" ior="1.01" roughness="0.1" distribution="ashikhminShirley"/>)",
+          R"(<bsdf type="disney" baseColor="1" ior="1.01" transmission="1" roughness="0.1"/>)"}) {
+        Channels const c = guides(glass);
+        EXPECT_NEAR(c.at("denoise_albedo.R", 15, 5), 0.1, 0.02) << glass;
+        EXPECT_NEAR(c.at("denoise_albedo.G", 15, 5), 0.8, 0.02) << glass;
+        EXPECT_NEAR(c.at("denoise_albedo.R", 5, 5) / c.at("denoise_albedo.G", 5, 5), 8, 0.1);
+    }
+    // What blurs is seen for itself.
+    Channels const frosted = guides(R"(<bsdf type="roughdielectric" ior="1.01" roughness="0.5"/>)");
+    EXPECT_NEAR(frosted.at("denoise_albedo.R", 15, 5), 1, 0.02);
+}
+
 TEST(Guides, AreFilteredLikeBeauty) {
     // Out of focus the edge between dark and bright is as wide in the guide as in the picture of
     // the same pattern that shines.

@@ -71,7 +71,7 @@ inline Color power(lobes::Bsdf const& bsdf, Vec3 const& wo, Vec3 const& wi) {
     for (int k = 0; k < bsdf.size(); ++k)
         match(bsdf[k].kind, [&](auto const& lobe) {
             if constexpr (lobes::SmoothLobe<std::remove_cvref_t<decltype(lobe)>>)
-                sum += bsdf[k].weight * lobe.eval(o, i).f * transmission_eta_scale(lobe, i);
+                sum += bsdf[k].weight * lobe.eval(o, i).f * eta_scale_towards(lobe, i);
         });
     return sum;
 }
