@@ -4,6 +4,8 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "base/error.h"
@@ -47,6 +49,8 @@ struct UdimTile {
     int32_t image = -1; ///< index into the scene's images
 };
 
+/// All that a picture is made of. scene/scene_vectors.h lists the members once more, for whoever
+/// has to walk over all of them; one that is not listed does not compile.
 struct Scene {
     SceneContents contents;
     std::vector<Camera> cameras;
@@ -68,7 +72,8 @@ struct Scene {
     /// What file names with <UDIM> stand for: their `resource` is an index into this.
     std::vector<std::vector<UdimTile>> udims;
 
-    /// Where things were written, for messages.
+    /// Where things were written, for messages. These vectors may be shorter than those of the
+    /// objects: ask `location_of` and `name_of`.
     std::vector<SourceLocation> instance_locations;
     std::vector<SourceLocation> light_locations;
     std::vector<SourceLocation> material_locations;
@@ -76,5 +81,32 @@ struct Scene {
     std::vector<std::string> instance_names; ///< ids; "" where there is none
     std::vector<std::string> material_names; ///< likewise
 };
+
+/// What an object is called: its id in a scene file, its name in a glTF file; "" where it has none.
+template <class Kind>
+std::string_view name_of(Scene const& scene, schema::Id<Kind> id) {
+    auto const name = [&](std::vector<std::string> const& names) {
+        return size_t(id.index) < names.size() ? std::string_view(names[size_t(id.index)]) : "";
+    };
+    if constexpr (std::is_same_v<Kind, InstanceKind>) return name(scene.instance_names);
+    if constexpr (std::is_same_v<Kind, MaterialKind>) return name(scene.material_names);
+    return "";
+}
+
+/// Where an object was written. Where nobody has said, a place that tells which one it is:
+/// "instance 3 'lamp'", counted from 0.
+template <class Kind>
+SourceLocation location_of(Scene const& scene, schema::Id<Kind> id) {
+    std::vector<SourceLocation> const* known = nullptr;
+    if constexpr (std::is_same_v<Kind, InstanceKind>) known = &scene.instance_locations;
+    if constexpr (std::is_same_v<Kind, LightKind>) known = &scene.light_locations;
+    if constexpr (std::is_same_v<Kind, MaterialKind>) known = &scene.material_locations;
+    if constexpr (std::is_same_v<Kind, schema::TextureKind>) known = &scene.texture_locations;
+    if (known && size_t(id.index) < known->size()) return (*known)[size_t(id.index)];
+    std::string text = Kind::category + (" " + std::to_string(id.index));
+    if (std::string_view const name = name_of(scene, id); !name.empty())
+        text += " '" + std::string(name) + "'";
+    return {text};
+}
 
 } // namespace weft::scene

@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "base/hash.h"
+#include "scene/scene_vectors.h"
 #include "schema/text.h"
 
 namespace weft::scene {
@@ -90,24 +91,39 @@ void add_all(Hasher& h, std::vector<T> const& objects) {
     for (T const& object : objects) add_object(h, object);
 }
 
-void add_mesh(Hasher& h, Mesh const& mesh) {
-    h.add_array(mesh.positions);
-    h.add_array(mesh.normals);
-    h.add_array(mesh.uvs);
-    h.add_array(mesh.colors);
-    for (VertexAttribute const& a : mesh.attributes) {
+// One overload for each type of resource: a new one that has none does not compile.
+
+void add_resource(Hasher& h, std::shared_ptr<Mesh const> const& mesh) {
+    h.add_array(mesh->positions);
+    h.add_array(mesh->normals);
+    h.add_array(mesh->uvs);
+    h.add_array(mesh->colors);
+    h.add(mesh->attributes.size());
+    for (VertexAttribute const& a : mesh->attributes) {
         h.add(a.name);
         h.add(uint64_t(a.components));
         h.add_array(a.values);
     }
-    h.add_array(mesh.triangles);
+    h.add_array(mesh->triangles);
 }
 
-void add_image(Hasher& h, image::Texture const& image) {
-    h.add(uint64_t(image.width) << 32 | uint64_t(image.height));
-    if (image.source) return h.add(image.source->contents_hash());
-    size_t const size = image.level_count() > 1 ? image.level(1).offset : image.memory_bytes();
-    h.add_bytes({image.texels(0), size});
+void add_resource(Hasher& h, std::shared_ptr<image::Texture const> const& image) {
+    h.add(uint64_t(image->width) << 32 | uint64_t(image->height));
+    if (image->source) return h.add(image->source->contents_hash());
+    size_t const size = image->level_count() > 1 ? image->level(1).offset : image->memory_bytes();
+    h.add_bytes({image->texels(0), size});
+}
+
+void add_resource(Hasher& h, std::shared_ptr<Photometry const> const& lamp) {
+    h.add_array(lamp->vertical);
+    h.add_array(lamp->horizontal);
+    h.add_array(lamp->candela);
+    h.add_array(std::vector{lamp->lamp_lumens, lamp->watts});
+}
+
+void add_resource(Hasher& h, std::vector<UdimTile> const& tiles) {
+    h.add(tiles.size());
+    for (UdimTile const& tile : tiles) h.add(uint64_t(tile.number) << 32 | uint32_t(tile.image));
 }
 
 } // namespace
@@ -115,20 +131,11 @@ void add_image(Hasher& h, image::Texture const& image) {
 uint64_t scene_hash(Scene const& scene) {
     Hasher h;
     add_object(h, scene.contents);
-    add_all(h, scene.cameras);
-    add_all(h, scene.textures);
-    add_all(h, scene.materials);
-    add_all(h, scene.layers);
-    add_all(h, scene.emissions);
-    add_all(h, scene.volumes);
-    add_all(h, scene.media);
-    add_all(h, scene.shapes);
-    add_all(h, scene.instances);
-    add_all(h, scene.lights);
-    for (auto const& mesh : scene.meshes) add_mesh(h, *mesh);
-    for (auto const& image : scene.images) add_image(h, *image);
-    for (auto const& set : scene.udims)
-        for (UdimTile const& tile : set) h.add(uint64_t(tile.number) << 32 | uint32_t(tile.image));
+    for_each_vector(kObjectVectors, [&](auto const& v) { add_all(h, scene.*v.member); });
+    for_each_vector(kResourceVectors, [&](auto member) {
+        h.add((scene.*member).size());
+        for (auto const& resource : scene.*member) add_resource(h, resource);
+    });
     return h.hash;
 }
 

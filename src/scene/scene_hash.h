@@ -1,5 +1,5 @@
-// A number for everything that a scene says, so that files and parts of pictures can tell whether
-// they are of the same one.
+// A number for everything that a scene says. Pictures and parts of pictures carry it, so that parts
+// of different scenes are never mixed.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,11 @@
 
 namespace weft::scene {
 
-/// A hash of all parameters and meshes, and of images: the contents of their files, which the first
-/// call reads (image/source_file.h), or the texels of those that are of none. Not of where files
+/// Returns a hash of all objects and of all that files hold (every vector of scene_vectors.h but
+/// the notes). Of an image, the contents of its file count, which the first call reads
+/// (image/source_file.h), or its texels where it has no file. It does not depend on where files
 /// are, how the scene's is laid out, what its things are called, or whether texels lie in memory.
-/// The same on every machine and from run to run.
+/// It is the same on every machine and from run to run.
 uint64_t scene_hash(Scene const& scene);
 
 } // namespace weft::scene

@@ -35,7 +35,7 @@ void add_light_groups(world::World const& world, film::SceneTags& tags) {
 }
 
 std::string instance_name(scene::Scene const& scene, int32_t instance) {
-    std::string const& name = scene.instance_names[size_t(instance)];
+    std::string const name(name_of(scene, scene::InstanceId{instance}));
     return name.empty() ? "instance_" + std::to_string(instance) : name;
 }
 
@@ -53,7 +53,7 @@ std::string material_name(world::World const& world, uint32_t object) {
     world::Object const& o = world.object(object);
     if (!o.material) return "";
     size_t const index = size_t(o.material.index);
-    if (std::string const& name = scene.material_names[index]; !name.empty()) return name;
+    if (auto const name = name_of(scene, o.material); !name.empty()) return std::string(name);
     return std::string(match(scene.materials[index], [](auto const& m) { return m.info.type; })) +
            "_" + std::to_string(index);
 }

@@ -118,7 +118,7 @@ void Materials::for_each_part(scene::MaterialId id, F const& f) const {
 void Materials::compile(scene::Scene const& scene, scene::MaterialId id, GraphCompiler& compiler) {
     CompiledMaterial& material = compiled_[size_t(id.index)];
     if (material.done) return;
-    SourceLocation const& where = scene.material_locations[size_t(id.index)];
+    SourceLocation const where = location_of(scene, id);
     material.parameters = scene.materials[size_t(id.index)];
     if (auto const* layered = std::get_if<scene::Layered>(&material.parameters)) {
         for (scene::LayerId layer : layered->layers)

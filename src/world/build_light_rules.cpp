@@ -37,7 +37,7 @@ RayMask WorldBuilder::shadow_mask(Links const& links) const {
 
 void WorldBuilder::mask_objects() {
     for (scene::LightId id : scene_.contents.lights) {
-        SourceLocation const& where = scene_.light_locations[size_t(id.index)];
+        SourceLocation const where = location_of(scene_, id);
         scene::LightControls const& c =
             match(scene_.lights[size_t(id.index)],
                   [](auto const& l) -> scene::LightControls const& { return l.controls; });
@@ -78,7 +78,7 @@ void WorldBuilder::link_lights(LightList& list) {
     for (size_t i = 0; i < list.lights.size(); ++i) {
         Light& light = list.lights[i];
         LightRules& rules = light.rules;
-        SourceLocation const& where = scene_.light_locations[size_t(light.source)];
+        SourceLocation const where = location_of(scene_, scene::LightId{light.source});
         rules.lit = sets_.find(light.controls.illuminates, "illuminates", where);
         if (Links const by = sets_.find(light.controls.shadowed_by, "shadowedBy", where))
             if (rules.shadow_mask != 0) rules.shadow_mask = shadow_mask(by);

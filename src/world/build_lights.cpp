@@ -6,7 +6,7 @@ namespace weft::world {
 
 Color WorldBuilder::brightness(scene::Input<Color> const& input, std::string const& title) {
     if (!input.texture) return input.value;
-    SourceLocation const& where = scene_.texture_locations[size_t(input.texture.index)];
+    SourceLocation const where = location_of(scene_, input.texture);
     world_.textures_.prepare(compiler_, input.texture, where);
     if (world_.textures_.needs(input.texture) != shading::Needs::nothing)
         throw InputError(where, title + " expects one color, found nodes that vary from point to "
@@ -49,7 +49,7 @@ void WorldBuilder::add_light(scene::DirectionalLight const& light, SourceLocatio
 std::pair<std::optional<Gobo>, float> WorldBuilder::make_gobo(scene::SpotLight const& light,
                                                               lights::SpotLight const& spot) {
     if (!light.gobo.texture) return {std::nullopt, 1.f};
-    SourceLocation const& where = scene_.texture_locations[size_t(light.gobo.texture.index)];
+    SourceLocation const where = location_of(scene_, light.gobo.texture);
     world_.textures_.prepare(compiler_, light.gobo.texture, where);
     if (!within(world_.textures_.needs(light.gobo.texture), shading::Needs::uv))
         throw InputError(where, "'gobo' of <light type=\"spot\"> expects nodes that depend on uv "
@@ -110,9 +110,7 @@ void WorldBuilder::build_lights() {
     for (scene::LightId id : scene_.contents.lights) {
         list.source = id.index;
         std::visit(Overloaded{
-                       [&](auto const& light) {
-                           add_light(light, scene_.light_locations[size_t(id.index)], list);
-                       },
+                       [&](auto const& light) { add_light(light, location_of(scene_, id), list); },
                        [](scene::AreaLight const&) {}, // by the objects that it lets shine
                    },
                    scene_.lights[size_t(id.index)]);

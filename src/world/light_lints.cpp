@@ -51,16 +51,14 @@ class LightLints {
 
     std::string name_of(Light const& light) const {
         if (light.source < 0) return "a light";
-        return to_string(scene_.light_locations[size_t(light.source)]) + ": " +
+        return to_string(location_of(scene_, scene::LightId{light.source})) + ": " +
                type_of(scene_.lights[size_t(light.source)]);
     }
     std::string name_of(uint32_t object) const {
-        int32_t const instance = world_.object(object).source_instance;
-        std::string name = "the instance";
-        if (size_t(instance) < scene_.instance_names.size() &&
-            !scene_.instance_names[size_t(instance)].empty())
-            name += " '" + scene_.instance_names[size_t(instance)] + "'";
-        return name + " at " + to_string(scene_.instance_locations[size_t(instance)]);
+        scene::InstanceId const instance{world_.object(object).source_instance};
+        std::string const name(scene::name_of(scene_, instance));
+        return "the instance" + (name.empty() ? "" : " '" + name + "'") + " at " +
+               to_string(location_of(scene_, instance));
     }
     /// A lamp hung from a group that is there a hundred times is one thing to say.
     void warn(std::string text) {

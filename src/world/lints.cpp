@@ -45,7 +45,7 @@ std::vector<std::string> lint_warnings(World const& world, scene::Integrator con
     bool emits = world.statistics().lights > 0;
     for (uint32_t i = 0; i < world.statistics().objects; ++i) {
         Object const& o = world.object(i);
-        std::string const at = to_string(scene.instance_locations[size_t(o.source_instance)]);
+        std::string const at = to_string(location_of(scene, scene::InstanceId{o.source_instance}));
         emits |= bool(o.emission);
         if (o.emission && o.light < 0)
             warnings.push_back(at + ": emits light but is no <light type=\"area\">: only rays "
@@ -55,7 +55,8 @@ std::vector<std::string> lint_warnings(World const& world, scene::Integrator con
     }
     for (size_t i = 0; i < scene.materials.size(); ++i)
         if (std::string const lint = match(scene.materials[i], MaterialLint{scene}); !lint.empty())
-            warnings.push_back(to_string(scene.material_locations[i]) + ": " + lint);
+            warnings.push_back(to_string(location_of(scene, scene::MaterialId{int32_t(i)})) + ": " +
+                               lint);
     if (!scene::outputs_of(integrator)) return warnings;
     if (!emits)
         warnings.push_back(to_string(where) +

@@ -124,7 +124,7 @@ void WorldBuilder::add_instance(int32_t index, Inherited const& outer) {
     given.holdout = outer.holdout || instance.holdout;
     given.shadow_catcher = outer.shadow_catcher || instance.shadow_catcher;
     given.sets =
-        outer.sets | sets_.declare(instance.sets, scene_.instance_locations[size_t(index)]);
+        outer.sets | sets_.declare(instance.sets, location_of(scene_, scene::InstanceId{index}));
     given.trace_distance =
         outer.trace_distance > 0 ? outer.trace_distance : instance.trace_distance;
     given.root_instance = outer.root_instance >= 0 ? outer.root_instance : index;
@@ -203,7 +203,7 @@ void WorldBuilder::compile_networks() {
     world_.textures_ = shading::Textures(scene_.textures.size());
     world_.materials_ = shading::Materials(scene_);
     for (Object& o : world_.objects_) {
-        SourceLocation const& where = scene_.instance_locations[size_t(o.source_instance)];
+        SourceLocation const where = location_of(scene_, scene::InstanceId{o.source_instance});
         o.has_tangents = bool(o.normal_map);
         auto look = [&](shading::Needs needs) {
             o.has_tangents |= !within(needs, shading::Needs::uv | shading::Needs::view);
@@ -249,7 +249,7 @@ void WorldBuilder::attach_attributes() {
         if (found) continue;
         std::sort(known.begin(), known.end());
         known.erase(std::unique(known.begin(), known.end()), known.end());
-        throw InputError(scene_.texture_locations[size_t(node.index)],
+        throw InputError(location_of(scene_, node),
                          "expected a vertex property of some mesh, found '" + name + "'" +
                              (known.empty() ? ": no mesh has any" : suggestion(name, known)));
     }

@@ -13,15 +13,32 @@ namespace {
 
 using namespace weft::testing;
 
-TestScene small_scene(std::string const& more = "") {
+TestScene small_scene(std::string const& more = "", std::string const& folder = "") {
     return make_scene(R"(
         <camera type="perspective" width="45" height="30" fov="50"><transform><lookat origin="0,1,-4" target="0,0,0" up="0,1,0"/></transform></camera>
         <instance id="ball"><shape type="sphere"/><bsdf type="principled" roughness="0.3"/></instance>
         <light type="point" position="2,3,-4" power="300"/>
         <light type="envmap"><texture type="constant" value="0.3,0.4,0.5"/></light>)" +
                           more,
-                      "type=\"path\" depth=\"6\" aovs=\"depth, albedo, crypto_object\"", "",
+                      "type=\"path\" depth=\"6\" aovs=\"depth, albedo, crypto_object\"", folder,
                       "type=\"sobol\" count=\"12\"");
+}
+
+/// Lit through a window of this width.
+TestScene scene_with_portal(std::string const& width) {
+    return small_scene(
+        R"(<light type="envmap"><texture type="constant" value="1"/><portal><transform>
+        <scale x=")" +
+        width + R"(" y="1"/><translate y="2" z="2"/></transform></portal></light>)");
+}
+
+/// Lit by a lamp whose file, always of one name, says this intensity straight down.
+TestScene scene_with_lamp(std::string const& candela) {
+    TemporaryFolder const folder;
+    std::ofstream(folder / "lamp.ies")
+        << "IESNA91\nTILT=NONE\n1 1000 1 2 1 1 2 0 0 0\n1 1 10\n0 90\n0\n" + candela + " 20\n";
+    return small_scene("<light type=\"ies\" filename=\"lamp.ies\" position=\"0,2,0\"/>",
+                       folder.path());
 }
 
 RenderState part_of(TestScene const& scene, Part const& part, RenderOptions options = {}) {
@@ -182,6 +199,11 @@ TEST(Parts, ThatDoNotFitAreRefusedByName) {
     TestScene const foreign = small_scene("<instance><shape type=\"sphere\"/></instance>");
     EXPECT_NE(message({one, two, part_of(foreign, {3, 3, 0, 0})}).find("part2 is of another"),
               std::string::npos);
+    for (auto const& [a, b] : {std::pair(scene_with_portal("1"), scene_with_portal("0.5")),
+                               std::pair(scene_with_lamp("100"), scene_with_lamp("50"))})
+        EXPECT_NE(
+            message({part_of(a, {1, 2, 0, 0}), part_of(b, {2, 2, 0, 0})}).find("is of another"),
+            std::string::npos);
     RenderState stopped = three;
     stopped.film = film::Film(three.film.region(), three.film.layout());
     EXPECT_EQ(message({one, two, stopped}),
