@@ -12,9 +12,9 @@ namespace weft::io {
 namespace {
 
 /// Numbers separated by blanks, commas and line ends.
-class Reader {
+class IesReader {
   public:
-    Reader(std::string_view text, std::string const& name)
+    IesReader(std::string_view text, std::string const& name)
         : text_(text), name_(name), p_(text.data()), end_(text.data() + text.size()) {}
 
     /// Goes to what TILT is set to.
@@ -110,7 +110,7 @@ class Reader {
 };
 
 /// Tilt data are checked as the rest is, and not used.
-void read_tilt(Reader& in) {
+void read_tilt(IesReader& in) {
     std::string_view const tilt = in.skip_to_tilt();
     if (tilt != "NONE" && tilt != "INCLUDE")
         in.fail("expected TILT=NONE or TILT=INCLUDE, found " + quoted(tilt));
@@ -130,7 +130,7 @@ struct Header {
     int vertical = 0, horizontal = 0;
 };
 
-Header read_header(Reader& in, std::string_view bytes) {
+Header read_header(IesReader& in, std::string_view bytes) {
     Header h;
     int const lamps = in.count(1, "the number of lamps");
     float const lumens = in.number("the lumens per lamp");
@@ -158,7 +158,7 @@ Header read_header(Reader& in, std::string_view bytes) {
 enum class Symmetry { all_around, quarters, halves_at_0, halves_at_90, none };
 
 /// What the horizontal angles, just read, stand for.
-Symmetry symmetry_of(Reader const& in, std::vector<float> const& angles) {
+Symmetry symmetry_of(IesReader const& in, std::vector<float> const& angles) {
     float const first = angles.front(), last = angles.back();
     if (angles.size() == 1) return Symmetry::all_around;
     if (first == 0 && last == 90) return Symmetry::quarters;
@@ -231,7 +231,7 @@ void complete(scene::Photometry& lamp, Symmetry symmetry) {
 } // namespace
 
 scene::Photometry read_ies(std::string_view bytes, std::string const& name) {
-    Reader in(bytes, name);
+    IesReader in(bytes, name);
     read_tilt(in);
     Header const header = read_header(in, bytes);
     scene::Photometry lamp;

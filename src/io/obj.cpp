@@ -50,9 +50,9 @@ constexpr std::array<std::string_view, 22> kCurved{
     "vp",   "cstype", "deg", "bmat", "step", "curv", "curv2", "surf", "parm", "trim", "hole",
     "scrv", "sp",     "end", "con",  "bzp",  "bsp",  "cdc",   "cdp",  "res",  "call", "csh"};
 
-class Reader {
+class ObjReader {
   public:
-    Reader(std::string_view text, std::string const& name)
+    ObjReader(std::string_view text, std::string const& name)
         : text_(text), name_(name), p_(text.data()), end_(text.data() + text.size()) {}
 
     Lists run() {
@@ -289,7 +289,7 @@ void refuse_utf16(std::string_view text, std::string const& name) {
 
 scene::Mesh read_obj(std::string_view bytes, std::string const& name) {
     refuse_utf16(bytes, name);
-    Lists const lists = Reader(bytes, name).run();
+    Lists const lists = ObjReader(bytes, name).run();
     if (lists.faces.empty())
         throw InputError({name}, "expected faces, found none; it has " +
                                      std::to_string(lists.positions.size()) + " vertices, " +

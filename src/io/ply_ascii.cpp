@@ -7,9 +7,9 @@ namespace weft::io::ply {
 namespace {
 
 /// Walks the values of a text body. One record is one line; blank lines are skipped.
-class Cursor {
+class TextCursor {
   public:
-    Cursor(Source const& s, size_t at)
+    TextCursor(Source const& s, size_t at)
         : source_(s), p_(s.bytes.data() + at), end_(s.bytes.data() + s.bytes.size()) {}
 
     size_t offset() const { return size_t(p_ - source_.bytes.data()); }
@@ -100,7 +100,7 @@ size_t read_ascii_vertices(Source const& s, size_t at, scene::Mesh& mesh) {
     std::vector<Column> const columns = make_columns(s.header, mesh);
     std::vector<Column const*> by_property(e.properties.size(), nullptr);
     for (Column const& c : columns) by_property[c.property] = &c;
-    Cursor in(s, at);
+    TextCursor in(s, at);
     for (uint64_t i = 0; i < e.count; ++i) {
         in.begin_record(e, i);
         for (size_t k = 0; k < e.properties.size(); ++k) {
@@ -119,7 +119,7 @@ size_t read_ascii_faces(Source const& s, size_t at, scene::Mesh& mesh) {
     size_t const vertices = mesh.positions.size();
     mesh.triangles.reserve(e.count);
     std::vector<uint32_t> corners;
-    Cursor in(s, at);
+    TextCursor in(s, at);
     for (uint64_t i = 0; i < e.count; ++i) {
         in.begin_record(e, i);
         for (size_t k = 0; k < e.properties.size(); ++k) {
@@ -147,7 +147,7 @@ size_t read_ascii_faces(Source const& s, size_t at, scene::Mesh& mesh) {
 }
 
 size_t skip_ascii(Source const& s, Element const& e, size_t at) {
-    Cursor in(s, at);
+    TextCursor in(s, at);
     for (uint64_t i = 0; i < e.count; ++i) {
         in.begin_record(e, i);
         in.skip_record(e, i);

@@ -48,9 +48,9 @@ int64_t load_integer(Scalar s, char const* p, bool swap) {
 }
 
 /// Walks the bytes of a binary body.
-class Cursor {
+class ByteCursor {
   public:
-    Cursor(Source const& s, size_t at)
+    ByteCursor(Source const& s, size_t at)
         : source_(s), p_(s.bytes.data() + at), end_(s.bytes.data() + s.bytes.size()),
           swap_((s.header.format == Format::big_endian) !=
                 (std::endian::native == std::endian::big)) {}
@@ -115,7 +115,7 @@ bool gather(char const* p, size_t bytes, size_t n, Column const& c, size_t first
 }
 
 /// Records of one size, in blocks that stay in the first-level cache while every column passes.
-void read_fixed_vertices(Cursor& in, Element const& e, std::vector<Column> const& columns) {
+void read_fixed_vertices(ByteCursor& in, Element const& e, std::vector<Column> const& columns) {
     constexpr size_t kBlock = 256;
     std::vector<size_t> offset(e.properties.size() + 1, 0);
     for (size_t k = 0; k < e.properties.size(); ++k)
@@ -138,7 +138,7 @@ void read_fixed_vertices(Cursor& in, Element const& e, std::vector<Column> const
     }
 }
 
-void read_varying_vertices(Cursor& in, Element const& e, std::vector<Column> const& columns) {
+void read_varying_vertices(ByteCursor& in, Element const& e, std::vector<Column> const& columns) {
     std::vector<Column const*> by_property(e.properties.size(), nullptr);
     for (Column const& c : columns) by_property[c.property] = &c;
     for (uint64_t i = 0; i < e.count; ++i) {
@@ -157,7 +157,7 @@ void read_varying_vertices(Cursor& in, Element const& e, std::vector<Column> con
     }
 }
 
-void read_corners(Cursor& in, Element const& e, Property const& p, uint64_t face,
+void read_corners(ByteCursor& in, Element const& e, Property const& p, uint64_t face,
                   std::vector<uint32_t>& corners, scene::Mesh& mesh) {
     char const* const start = in.position();
     int64_t const n = in.list_length(e, p, face);
@@ -182,7 +182,7 @@ struct PlainTriangles {
     size_t record = 0; ///< bytes of a record that holds a triangle
 };
 
-PlainTriangles find_plain_triangles(Cursor const& in, Element const& e, size_t list) {
+PlainTriangles find_plain_triangles(ByteCursor const& in, Element const& e, size_t list) {
     Property const& p = e.properties[list];
     PlainTriangles plain;
     plain.applies = !in.swap() && size_of(p.length_type) == 1 && size_of(p.type) == 4;
@@ -199,7 +199,7 @@ PlainTriangles find_plain_triangles(Cursor const& in, Element const& e, size_t l
 size_t read_binary_vertices(Source const& s, size_t at, scene::Mesh& mesh) {
     Element const& e = s.header.elements[s.header.vertex];
     std::vector<Column> const columns = make_columns(s.header, mesh);
-    Cursor in(s, at);
+    ByteCursor in(s, at);
     if (e.has_list)
         read_varying_vertices(in, e, columns);
     else
@@ -212,7 +212,7 @@ size_t read_binary_faces(Source const& s, size_t at, scene::Mesh& mesh) {
     size_t const vertices = mesh.positions.size();
     mesh.triangles.reserve(e.count);
     std::vector<uint32_t> corners;
-    Cursor in(s, at);
+    ByteCursor in(s, at);
     PlainTriangles const plain = find_plain_triangles(in, e, s.header.corners);
     for (uint64_t i = 0; i < e.count; ++i) {
         char const* const p = in.position() + plain.before;
@@ -236,7 +236,7 @@ size_t read_binary_faces(Source const& s, size_t at, scene::Mesh& mesh) {
 }
 
 size_t skip_binary(Source const& s, Element const& e, size_t at) {
-    Cursor in(s, at);
+    ByteCursor in(s, at);
     if (!e.has_list) {
         in.take(e.count * e.min_bytes, e, 0);
         return in.offset();

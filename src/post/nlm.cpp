@@ -30,23 +30,23 @@ constexpr float kAlbedoScale = 0.04f, kNormalScale = 0.15f;
 /// What is darker is not divided by its own albedo: where an emitter, which has none, meets a
 /// surface, that would blow up small differences.
 constexpr float kLeastAlbedo = 0.2f;
-constexpr float kMostLight = 1e30f; ///< sums of it stay finite
+constexpr float kMostSummedLight = 1e30f; ///< sums of it stay finite
 constexpr float kLeastOwnWeight = 0.03f;
 
-using Plane = std::vector<float>; ///< kSide x kSide
+using TilePlane = std::vector<float>; ///< kSide x kSide
 
 /// What is known about a tile and the pixels around it.
 struct TileData {
-    std::array<Plane, 3> light; ///< colour over albedo
-    std::array<Plane, 3> logs;  ///< its logarithm, in which patches are compared
-    Plane variance;             ///< of the noise in `logs`
-    std::array<Plane, 3> albedo, normal;
-    Plane difference, row_sums, pointwise; ///< scratch
+    std::array<TilePlane, 3> light; ///< colour over albedo
+    std::array<TilePlane, 3> logs;  ///< its logarithm, in which patches are compared
+    TilePlane variance;             ///< of the noise in `logs`
+    std::array<TilePlane, 3> albedo, normal;
+    TilePlane difference, row_sums, pointwise; ///< scratch
 
     TileData() {
         for (auto* planes : {&light, &logs, &albedo, &normal})
-            for (Plane& p : *planes) p.assign(size_t(kSide) * kSide, 0.f);
-        for (Plane* p : {&variance, &difference, &row_sums, &pointwise})
+            for (TilePlane& p : *planes) p.assign(size_t(kSide) * kSide, 0.f);
+        for (TilePlane* p : {&variance, &difference, &row_sums, &pointwise})
             p->assign(size_t(kSide) * kSide, 0.f);
     }
 };
@@ -69,7 +69,7 @@ void load(DenoiseInput const& input, int x0, int y0, TileData& tile) {
                     tile.normal[k][i] = std::isfinite(n) ? std::clamp(n, -1.f, 1.f) : 0.f;
                 }
                 float const albedo = input.albedo ? std::max(tile.albedo[k][i], kLeastAlbedo) : 1.f;
-                tile.light[k][i] = std::min(sane(color.at(px, py, c)), kMostLight) / albedo;
+                tile.light[k][i] = std::min(sane(color.at(px, py, c)), kMostSummedLight) / albedo;
             }
         }
 }
@@ -91,7 +91,7 @@ float feature_distance(TileData const& tile, size_t p, size_t q) {
 void remove_outliers(TileData& tile) {
     constexpr float kTooBright = 3;
     constexpr int kEnough = 8; // of 24
-    Plane& luminance = tile.difference;
+    TilePlane& luminance = tile.difference;
     for (size_t i = 0; i < luminance.size(); ++i)
         luminance[i] =
             0.2126f * tile.light[0][i] + 0.7152f * tile.light[1][i] + 0.0722f * tile.light[2][i];
@@ -111,7 +111,7 @@ void remove_outliers(TileData& tile) {
                 }
             float const limit = kTooBright * brightest[2];
             if (alike >= kEnough && luminance[i] > limit)
-                for (Plane& light : tile.light) light[i] *= limit / luminance[i] / kTooBright;
+                for (TilePlane& light : tile.light) light[i] *= limit / luminance[i] / kTooBright;
         }
 }
 
@@ -119,7 +119,7 @@ void estimate_noise(float exposure, TileData& tile) {
     for (size_t c = 0; c < 3; ++c)
         for (size_t i = 0; i < tile.light[c].size(); ++i)
             tile.logs[c][i] = std::log1p(exposure * tile.light[c][i]);
-    Plane &mean = tile.difference, &residual = tile.row_sums;
+    TilePlane &mean = tile.difference, &residual = tile.row_sums;
     for (size_t i = 0; i < mean.size(); ++i)
         mean[i] = (tile.logs[0][i] + tile.logs[1][i] + tile.logs[2][i]) / 3;
     for (int y = 1; y < kSide - 1; ++y)

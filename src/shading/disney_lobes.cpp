@@ -10,7 +10,7 @@ namespace weft::shading {
 namespace {
 
 /// Roughness below which glass is clear, and sampled as such.
-constexpr float kSmooth = 0.01f;
+constexpr float kMirrorRoughness = 0.01f;
 
 /// The index whose normal reflectance is `f0` < 1.
 float ior_of_f0(float f0) {
@@ -81,7 +81,7 @@ struct DisneyBuilder {
         lobes::BoundaryOptions options{0, film};
         // What is opaque has no inside: only glass is seen from within.
         if (!b.view.entering) options.film.outer_ior = ior;
-        if (eta == 1 || (roughness < kSmooth && below < kSmooth)) {
+        if (eta == 1 || (roughness < kMirrorRoughness && below < kMirrorRoughness)) {
             b.add(Color(share), lobes::SpecularDielectric{eta, specular_tint, base, options});
         } else if (below < 0 || below == roughness) {
             b.add(Color(share),

@@ -10,7 +10,7 @@ namespace weft::apps {
 
 namespace {
 
-struct Arguments {
+struct BloomArguments {
     std::string picture;
     std::vector<std::string> outputs;
     OptionTexts bloom, display;
@@ -27,7 +27,7 @@ scene::Bloom bloom_of(OptionTexts const& texts) {
     return bloom;
 }
 
-int run(Arguments const& a) {
+int run(BloomArguments const& a) {
     scene::Bloom const bloom = bloom_of(a.bloom);
     post::DisplayChain const chain = display_chain(a.display);
     print_warning(chain);
@@ -54,7 +54,7 @@ int run(Arguments const& a) {
 } // namespace
 
 void add_bloom_command(CLI::App& app, Command& chosen) {
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<BloomArguments>();
     CLI::App* c = app.add_subcommand(
         "bloom", "Add the light that the eye or a lens scatters around what is bright");
     c->add_option("picture", a->picture, "The picture, scene-linear: .exr, .hdr")

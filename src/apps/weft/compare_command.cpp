@@ -17,7 +17,7 @@ namespace weft::apps {
 
 namespace {
 
-struct Arguments {
+struct CompareArguments {
     std::vector<std::string> pictures; ///< the last is the reference
     std::string difference, report;
     double mae = -1, me = -1, mse = -1, rel_mse = -1, flip = -1;
@@ -73,7 +73,7 @@ void print(Comparison const& c, bool ldr) {
     if (d.non_finite) fmt::print("{} values are not finite\n", d.non_finite);
 }
 
-void write_difference(Arguments const& args, image::Image const& a, image::Image const& b,
+void write_difference(CompareArguments const& args, image::Image const& a, image::Image const& b,
                       double largest) {
     image::Image const difference = image::difference_image(a, b);
     bool const exr = image::is_exr(args.difference);
@@ -113,7 +113,7 @@ ReportPicture report_picture(std::string const& path, image::Image const& image,
     return picture;
 }
 
-bool passes(Arguments const& args, Comparison const& c) {
+bool passes(CompareArguments const& args, Comparison const& c) {
     auto within = [](double value, double limit) { return limit < 0 || value <= limit; };
     image::Difference const& d = c.difference;
     return within(d.mae, args.mae) && within(std::abs(d.me), args.me) && within(d.mse, args.mse) &&
@@ -121,7 +121,7 @@ bool passes(Arguments const& args, Comparison const& c) {
            (args.flip < 0 || within(post::mean_error(*c.flip), args.flip)) && d.non_finite == 0;
 }
 
-void check(Arguments const& args) {
+void check(CompareArguments const& args) {
     if (args.pictures.size() > 2 && !args.difference.empty())
         throw InputError("--diff expects one picture and a reference, found " +
                          std::to_string(args.pictures.size() - 1) +
@@ -137,7 +137,7 @@ void check(Arguments const& args) {
     }
 }
 
-int run(Arguments const& args) {
+int run(CompareArguments const& args) {
     check(args);
     bool const with_flip = !args.report.empty() || args.flip >= 0;
     image::Image const reference = image::read_image(args.pictures.back());
@@ -171,7 +171,7 @@ int run(Arguments const& args) {
 } // namespace
 
 void add_compare_command(CLI::App& app, Command& chosen) {
-    auto args = std::make_shared<Arguments>();
+    auto args = std::make_shared<CompareArguments>();
     CLI::App* c = app.add_subcommand(
         "compare", "Compare pictures with a reference; fails (1) beyond the limits given, or where "
                    "a value is not finite");

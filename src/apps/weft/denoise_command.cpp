@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct Arguments {
+struct DenoiseArguments {
     std::string input, output;
     std::string albedo, normal;
     std::vector<std::string> parts, keep;
@@ -55,7 +55,7 @@ post::ChannelTriple layer_of(std::string const& path, image::Image const& image,
 
 /// A guide: a layer of the picture or a file, by the option's text; without one, the layer `usual`.
 /// Empty where there is none.
-image::Image guide(Arguments const& a, image::Image const& image, char const* what,
+image::Image guide(DenoiseArguments const& a, image::Image const& image, char const* what,
                    std::string const& text, std::string const& usual) {
     if (text == "none" || (text.empty() && usual.empty())) return {};
     if (text.empty() || post::find_layer(image.names, text) || !fs::exists(text))
@@ -85,7 +85,7 @@ std::vector<std::string> expanded(std::vector<std::string> const& parts,
 }
 
 /// Empty without layers.
-image::Image sum_of(Arguments const& a, image::Image const& image,
+image::Image sum_of(DenoiseArguments const& a, image::Image const& image,
                     std::vector<std::string> const& layers) {
     image::Image sum;
     for (std::string const& layer : layers) {
@@ -97,7 +97,7 @@ image::Image sum_of(Arguments const& a, image::Image const& image,
 }
 
 /// Parts that are to be denoised beside the whole must sum to it.
-void check_sum(Arguments const& a, image::Image const& color,
+void check_sum(DenoiseArguments const& a, image::Image const& color,
                std::vector<image::Image> const& parts) {
     constexpr double kRounding = 0.01; // that of halves, and of a few samples that were not finite
     double difference = 0, total = 0;
@@ -116,7 +116,7 @@ void check_sum(Arguments const& a, image::Image const& color,
 }
 
 /// Writes the channels back where they come from, all else as it was.
-void write(Arguments const& a, image::Image const& image, post::Backend backend) {
+void write(DenoiseArguments const& a, image::Image const& image, post::Backend backend) {
     image::Metadata const more{
         {"weft:postprocess", fmt::format("denoising ({})", post::backend_name(backend))}};
     bool const exr = image::is_exr(a.output) && image::is_exr(a.input);
@@ -136,7 +136,7 @@ void write(Arguments const& a, image::Image const& image, post::Backend backend)
     fmt::print("{}\n", a.output);
 }
 
-int run(Arguments& a) {
+int run(DenoiseArguments& a) {
     image::check_writable(a.output);
     schema::TextForm<post::Backend>::read(a.backend, a.options.backend);
     schema::TextForm<post::Quality>::read(a.quality, a.options.quality);
@@ -187,7 +187,7 @@ int run(Arguments& a) {
 } // namespace
 
 void add_denoise_command(CLI::App& app, Command& chosen) {
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<DenoiseArguments>();
     CLI::App* c = app.add_subcommand("denoise", "Take the noise out of a rendered picture");
     c->add_option("picture", a->input,
                   "The picture; layers of an EXR that are called as albedo and normals usually are "

@@ -9,7 +9,7 @@ namespace weft::apps {
 
 namespace {
 
-struct Arguments {
+struct DisplayArguments {
     std::string picture;
     std::vector<std::string> outputs;
     bool list_views = false;
@@ -48,7 +48,7 @@ void decode(image::Image& image) {
     image.is_srgb_encoded = false;
 }
 
-int run(Arguments const& a) {
+int run(DisplayArguments const& a) {
     if (a.list_views) return list_views(a.display);
     if (a.picture.empty()) throw InputError("expected a picture to show, found none");
     if (a.outputs.empty()) throw InputError("expected -o OUT, where to write it, found none");
@@ -77,7 +77,7 @@ void print_warning(post::DisplayChain const& chain) {
 }
 
 void add_display_command(CLI::App& app, Command& chosen) {
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<DisplayArguments>();
     CLI::App* c = app.add_subcommand(
         "display",
         "Show a linear picture: exposure, white balance, and a view (a tone curve or any "

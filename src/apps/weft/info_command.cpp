@@ -12,7 +12,7 @@ namespace weft::apps {
 
 namespace {
 
-struct Arguments {
+struct InfoArguments {
     std::string scene;
     TextureArguments textures;
 };
@@ -25,7 +25,7 @@ void print_textures(image::TextureStatistics const& s) {
     fmt::print("\n");
 }
 
-int run(Arguments const& args) {
+int run(InfoArguments const& args) {
     io::SceneFile const file =
         io::read_scene_file(args.scene, {}, make_texture_cache(args.textures));
     for (scene::RenderJob const& job : file.jobs) {
@@ -50,7 +50,7 @@ int run(Arguments const& args) {
 } // namespace
 
 void add_info_command(CLI::App& app, Command& chosen) {
-    auto args = std::make_shared<Arguments>();
+    auto args = std::make_shared<InfoArguments>();
     CLI::App* c =
         app.add_subcommand("info", "Tell what a scene holds, and what looks like a mistake");
     c->add_option("scene", args->scene, "The scene file, or a glTF file")

@@ -18,13 +18,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct Arguments {
+struct MaketxArguments {
     std::vector<std::string> images;
     std::string output, color_space = schema::TextForm<scene::ColorSpace>::write({});
 };
 
 /// Beside the image, or in the folder or under the name that the user gave.
-std::string output_path(Arguments const& a, std::string const& image) {
+std::string output_path(MaketxArguments const& a, std::string const& image) {
     fs::path const beside = fs::path(image).replace_extension(".tx");
     if (a.output.empty()) return beside.string();
     if (fs::is_directory(a.output)) return (fs::path(a.output) / beside.filename()).string();
@@ -33,7 +33,7 @@ std::string output_path(Arguments const& a, std::string const& image) {
     return a.output;
 }
 
-int run(Arguments const& a) {
+int run(MaketxArguments const& a) {
     scene::ColorSpace color_space{};
     schema::TextForm<scene::ColorSpace>::read(a.color_space, color_space); // one of the names
     for (std::string const& image : a.images) {
@@ -55,7 +55,7 @@ int run(Arguments const& a) {
 } // namespace
 
 void add_maketx_command(CLI::App& app, Command& chosen) {
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<MaketxArguments>();
     auto const names = choices(scene::ColorSpace{});
     CLI::App* c = app.add_subcommand(
         "maketx", "Convert images to tiled, mip-mapped textures (.tx), of which a render reads "

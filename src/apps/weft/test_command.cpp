@@ -129,12 +129,12 @@ int run(std::vector<std::string> const& files, session::RenderOptions const& opt
 } // namespace
 
 void add_test_command(CLI::App& app, Command& chosen) {
-    struct Arguments {
+    struct TestArguments {
         std::vector<std::string> files;
         session::RenderOptions options;
         TextureArguments textures;
     };
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<TestArguments>();
     CLI::App* c =
         app.add_subcommand("test", "Run the <test>s of scene files against their reference images");
     c->add_option("files", a->files, "Scene files")->required()->type_name("FILE...");
