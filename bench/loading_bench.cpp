@@ -5,7 +5,7 @@
 #include "bench/raw_limit.h"
 #include "io/ply.h"
 #include "io/scene_file.h"
-#include "world/world.h"
+#include "lights/stage.h"
 
 namespace weft::bench {
 
@@ -58,7 +58,7 @@ LoadingFigures measure_loading(std::string const& scene_file, std::string const&
         scene::RenderJob const job = std::move(io::read_scene_file(scene_file).jobs.front());
         best(f.read_seconds, reading.stop().wall);
         Stopwatch const committing;
-        auto const world = world::World::commit(job.scene);
+        auto const stage = lights::Stage::commit(job.scene);
         best(f.commit_seconds, committing.stop().wall);
     }
     return f;

@@ -10,7 +10,7 @@ struct LoadingFigures {
     double file_seconds = 0;   ///< reading the mesh file into memory, from the system's cache
     double kernel_seconds = 0; ///< Embree's own building over the mesh
     double read_seconds = 0;   ///< the scene file and the mesh, parsed and validated
-    double commit_seconds = 0; ///< World::commit
+    double commit_seconds = 0; ///< Stage::commit
     double ratio() const {
         return (read_seconds + commit_seconds) / (file_seconds + kernel_seconds);
     }

@@ -50,19 +50,20 @@ RayCount count_rays(world::RayRecorder const& recorder) {
 RenderFigures measure_render(std::string const& scene_file, world::RayRecorder& recorder,
                              int rounds) {
     scene::RenderJob const job = std::move(io::read_scene_file(scene_file).jobs.front());
-    auto const world = world::World::commit(
-        job.scene, {.compensate = integrator::combines_strategies(job.integrator)});
-    Vec2i const size = world->camera().size();
+    auto const stage =
+        lights::Stage::commit(job.scene, {}, integrator::combines_strategies(job.integrator));
+    world::World const& world = stage->world();
+    Vec2i const size = world.camera().size();
     double const pixels = double(size.x) * size.y;
     int const spp = session::sample_count(job.sampler);
     int const recorded_spp = std::clamp(int(kRecordedSamples / pixels), 1, spp);
 
     for (auto const& list : recorder.lists()) list->clear();
-    world->record_rays(&recorder);
+    world.record_rays(&recorder);
     session::RenderOptions recording;
     recording.spp = recorded_spp;
-    session::render(*world, job, recording);
-    world->record_rays(nullptr);
+    session::render(*stage, job, recording);
+    world.record_rays(nullptr);
     RayCount const rays = count_rays(recorder);
 
     Cost render{kInfinity, kInfinity}, kernel = render;
@@ -71,15 +72,15 @@ RenderFigures measure_render(std::string const& scene_file, world::RayRecorder& 
         session::RenderOptions options;
         options.seed = uint32_t(round);
         Stopwatch const watch;
-        session::RenderResult result = session::render(*world, job, options);
+        session::RenderResult result = session::render(*stage, job, options);
         render = keep_best(render, watch.stop());
         if (images.size() < 2) images.push_back(std::move(result.image));
-        kernel = keep_best(kernel, replay(*world, recorder));
+        kernel = keep_best(kernel, replay(world, recorder));
     }
 
     double const scale = double(spp) / recorded_spp;
     RenderFigures f;
-    f.triangles = world->statistics().triangles;
+    f.triangles = world.statistics().triangles;
     f.width = size.x;
     f.height = size.y;
     f.spp = uint32_t(spp);

@@ -24,23 +24,23 @@ inline float reach_of(PathSettings const& settings, world::Object const& object)
 }
 
 /// What a light's controls say, null where no light has any.
-inline world::LightRules const* rules_of(world::World const& world, PathSettings const& settings,
-                                         int32_t light) {
-    return settings.controls && world.has_controls() && light >= 0 ? &world.lights()[light].rules
-                                                                   : nullptr;
+inline lights::LightRules const* rules_of(lights::LightTable const& lights,
+                                          PathSettings const& settings, int32_t light) {
+    return settings.controls && lights.has_controls() && light >= 0 ? &lights[light].rules
+                                                                    : nullptr;
 }
 
 /// The objects that block a light whose controls are `rules`; 0: none.
-inline world::RayMask shadow_mask(PathSettings const& settings, world::LightRules const* rules) {
+inline world::RayMask shadow_mask(PathSettings const& settings, lights::LightRules const* rules) {
     if (!settings.controls) return world::kUnruledMask;
     return rules ? rules->shadow_mask : world::kShadowMask;
 }
 
 /// The part of a light, `distance` away, that counts where the ray of `path` found it by itself.
-inline float found_factor(world::World const& world, PathSettings const& settings,
+inline float found_factor(lights::LightTable const& lights, PathSettings const& settings,
                           PathState const& path, int32_t light, float distance) {
     if (path.caustic && !settings.caustics) return 0;
-    world::LightRules const* rules = rules_of(world, settings, light);
+    lights::LightRules const* rules = rules_of(lights, settings, light);
     if (!rules) return 1;
     uint32_t const bounces = path.signature.length();
     if (bounces > 0 && rules->sampling_alone && (path.pdf > 0 || !rules->shown)) return 0;

@@ -25,18 +25,18 @@ bool is_hidden(world::World const& world, int32_t object, media::MediumStack con
 /// A point and what a light sends to it.
 struct Connection {
     ScatterPoint const& point;
-    world::LightSample const& light;
-    world::LightRules const* rules; ///< what of it counts; null: all
-    uint32_t bounces;               ///< the point included
-    bool alone;                     ///< no ray finds the light
-    bool combine;                   ///< what rays find is weighed against it
-    bool through;                   ///< it comes from the other side of the surface
+    lights::LightSample const& light;
+    lights::LightRules const* rules; ///< what of it counts; null: all
+    uint32_t bounces;                ///< the point included
+    bool alone;                      ///< no ray finds the light
+    bool combine;                    ///< what rays find is weighed against it
+    bool through;                    ///< it comes from the other side of the surface
 };
 
-Connection connection(world::World const& world, PathSettings const& settings,
+Connection connection(lights::Stage const& stage, PathSettings const& settings,
                       PathState const& path, ScatterPoint const& point,
-                      world::LightSample const& light) {
-    world::LightRules const* const rules = rules_of(world, settings, light.light);
+                      lights::LightSample const& light) {
+    lights::LightRules const* const rules = rules_of(stage.lights(), settings, light.light);
     bool const alone = light.delta || (rules && rules->sampling_alone);
     bool const through =
         point.surface && dot(light.wi, point.surface->ng) * dot(point.wo, point.surface->ng) < 0;
@@ -50,7 +50,7 @@ Connection connection(world::World const& world, PathSettings const& settings,
 Color counted(Connection const& c, lobes::LobeValue const& value, world::RayKind kind) {
     float const weight = c.combine ? power_heuristic(c.light.pdf, value.pdf) : 1;
     if (!c.rules) return value.f * weight;
-    world::Arrival const to{c.point.at.p, c.point.sets, c.bounces, kind, c.light.distance};
+    lights::Arrival const to{c.point.at.p, c.point.sets, c.bounces, kind, c.light.distance};
     return value.f * (weight * c.rules->factor(to));
 }
 
@@ -86,7 +86,7 @@ Scattered scatter(PathSettings const& settings, PathState const& path, Connectio
 Color transmitted(world::World const& world, PathSettings const& settings, PathState const& path,
                   Connection const& c, world::RayMask blockers, sampling::SampleStream const& u,
                   uint32_t vertex) {
-    world::LightSample const& light = c.light;
+    lights::LightSample const& light = c.light;
     world::Ray shadow;
     shadow.origin = c.point.origin(light.wi);
     shadow.direction = light.wi;
@@ -135,33 +135,33 @@ void add(PathSettings const& settings, PathState const& path, Connection const& 
 }
 
 /// One light sample at `point`, added to `sink`.
-void add_light(world::World const& world, PathSettings const& settings, PathState const& path,
-               ScatterPoint const& point, world::LightSample const& light,
+void add_light(lights::Stage const& stage, PathSettings const& settings, PathState const& path,
+               ScatterPoint const& point, lights::LightSample const& light,
                sampling::SampleStream const& u, uint32_t vertex, film::SampleSink& sink) {
     if (is_black(light.radiance)) return;
-    Connection const c = connection(world, settings, path, point, light);
+    Connection const c = connection(stage, settings, path, point, light);
     // What rays can find is left to them where the strategy says so.
     if (settings.strategy == scene::Strategy::bsdf && !c.alone) return;
     Scattered const scattered = scatter(settings, path, c);
     if (is_black(sum(scattered))) return;
     Color const visible =
-        transmitted(world, settings, path, c, shadow_mask(settings, c.rules), u, vertex);
+        transmitted(stage.world(), settings, path, c, shadow_mask(settings, c.rules), u, vertex);
     if (is_black(visible)) return;
     add(settings, path, c, scattered, path.throughput * light.radiance * visible / light.pdf, sink);
 }
 
 /// One light sample at a shadow catcher, told to `record`.
-void catch_light(world::World const& world, PathSettings const& settings, PathState const& path,
-                 ScatterPoint const& point, world::LightSample const& light,
+void catch_light(lights::Stage const& stage, PathSettings const& settings, PathState const& path,
+                 ScatterPoint const& point, lights::LightSample const& light,
                  sampling::SampleStream const& u, uint32_t vertex, film::SampleRecord& record) {
-    Connection c = connection(world, settings, path, point, light);
+    Connection c = connection(stage, settings, path, point, light);
     c.combine = false; // no ray helps
     Scattered const scattered = scatter(settings, path, c);
     Color const arriving = path.throughput * sum(scattered) * light.radiance / light.pdf;
     if (is_black(arriving)) return;
     world::RayMask const blockers = shadow_mask(settings, c.rules);
     auto const past = [&](world::RayMask mask) {
-        return transmitted(world, settings, path, c, mask, u, vertex);
+        return transmitted(stage.world(), settings, path, c, mask, u, vertex);
     };
     record.add_caught(arriving * past(blockers ? world::kCatcherMask : 0),
                       arriving * past(blockers));
@@ -169,21 +169,21 @@ void catch_light(world::World const& world, PathSettings const& settings, PathSt
 
 } // namespace
 
-void direct(world::World const& world, PathSettings const& settings, PathState const& path,
+void direct(lights::Stage const& stage, PathSettings const& settings, PathState const& path,
             ScatterPoint const& point, sampling::SampleStream const& u, uint32_t vertex,
             film::SampleSink& sink) {
-    world.lights().sample(point.at, u.get3(sampling::Dimension::Light, vertex),
+    stage.lights().sample(stage.world(), point.at, u.get3(sampling::Dimension::Light, vertex),
                           [&](auto const& light) {
-                              add_light(world, settings, path, point, light, u, vertex, sink);
+                              add_light(stage, settings, path, point, light, u, vertex, sink);
                           });
 }
 
-void catch_shadow(world::World const& world, PathSettings const& settings, PathState const& path,
+void catch_shadow(lights::Stage const& stage, PathSettings const& settings, PathState const& path,
                   ScatterPoint const& point, sampling::SampleStream const& u, uint32_t vertex,
                   film::SampleRecord& record) {
-    world.lights().sample(point.at, u.get3(sampling::Dimension::Light, vertex),
+    stage.lights().sample(stage.world(), point.at, u.get3(sampling::Dimension::Light, vertex),
                           [&](auto const& light) {
-                              catch_light(world, settings, path, point, light, u, vertex, record);
+                              catch_light(stage, settings, path, point, light, u, vertex, record);
                           });
 }
 

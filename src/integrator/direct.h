@@ -15,13 +15,13 @@ inline float power_heuristic(float pdf, float other) {
 
 /// Light samples at `point`, by the random numbers of `vertex`, added to `sink`: choice of up to
 /// `point.at.choices` lights, shadow rays through transparent surfaces and media, MIS weights.
-void direct(world::World const& world, PathSettings const& settings, PathState const& path,
+void direct(lights::Stage const& stage, PathSettings const& settings, PathState const& path,
             ScatterPoint const& point, sampling::SampleStream const& u, uint32_t vertex,
             film::SampleSink& sink);
 
 /// Tells `record` of light samples at a shadow catcher that the camera sees: with nothing but
 /// other catchers in the light's way, and as it is.
-void catch_shadow(world::World const& world, PathSettings const& settings, PathState const& path,
+void catch_shadow(lights::Stage const& stage, PathSettings const& settings, PathState const& path,
                   ScatterPoint const& point, sampling::SampleStream const& u, uint32_t vertex,
                   film::SampleRecord& record);
 

@@ -14,15 +14,16 @@ namespace {
 using sampling::Dimension;
 
 /// Emission of a surface that the ray met.
-void add_emission(world::World const& world, PathSettings const& settings, PathState const& path,
+void add_emission(lights::Stage const& stage, PathSettings const& settings, PathState const& path,
                   shading::SurfacePoint const& point, Color const& emission,
                   film::SampleSink& sink) {
     if (is_black(emission)) return;
-    int32_t const light = world.object(point.object).light;
+    int32_t const light = stage.lights().of_object(point.object);
     float const light_pdf =
-        light >= 0 && path.pdf > 0 ? world.lights().pdf(light, path.at, point) : 0;
-    float const weight = found_weight(settings.strategy, path, light_pdf) *
-                         found_factor(world, settings, path, light, length(point.p - path.at.p));
+        light >= 0 && path.pdf > 0 ? stage.lights().pdf(light, path.at, point) : 0;
+    float const weight =
+        found_weight(settings.strategy, path, light_pdf) *
+        found_factor(stage.lights(), settings, path, light, length(point.p - path.at.p));
     add_clamped(settings,
                 {path.throughput * emission * weight, light, path.signature, int32_t(point.object)},
                 sink);
@@ -31,36 +32,39 @@ void add_emission(world::World const& world, PathSettings const& settings, PathS
 /// Lamps of some size that the ray meets before `limit`, seen through the medium that it is in:
 /// wherever the path scatters in it, their light in this direction is the same. The camera looks
 /// through those that are hidden from it.
-void add_lamps(world::World const& world, PathSettings const& settings, PathState const& path,
+void add_lamps(lights::Stage const& stage, PathSettings const& settings, PathState const& path,
                float limit, film::SampleSink& sink) {
     bool const seen = path.signature.length() == 0;
-    if (seen && !world.lights().camera_sees_lamps()) return;
+    lights::LightTable const& lights = stage.lights();
+    if (seen && !lights.camera_sees_lamps()) return;
     world::Ray ray = path.ray;
     ray.t_max = std::min(limit, path.ray.t_max);
     int32_t const medium = path.media.current().medium;
-    world.lights().lamps(
-        ray, path.at, [&](int32_t light, Vec3 const& p, Color const& radiance, float pdf) {
-            if (seen && world.lights()[light].hidden_from_camera) return;
-            float const light_pdf = path.pdf > 0 ? pdf : 0;
-            float const weight = found_weight(settings.strategy, path, light_pdf) *
-                                 found_factor(world, settings, path, light, length(p - path.at.p));
-            Color value = path.throughput * radiance * weight;
-            if (medium >= 0)
-                value *= media::transmittance(world.medium(medium), length(p - path.ray.origin));
-            add_clamped(settings, {value, light, path.signature}, sink);
-        });
+    lights.lamps(ray, path.at, [&](int32_t light, Vec3 const& p, Color const& radiance, float pdf) {
+        if (seen && lights[light].hidden_from_camera) return;
+        float const light_pdf = path.pdf > 0 ? pdf : 0;
+        float const weight =
+            found_weight(settings.strategy, path, light_pdf) *
+            found_factor(stage.lights(), settings, path, light, length(p - path.at.p));
+        Color value = path.throughput * radiance * weight;
+        if (medium >= 0)
+            value *=
+                media::transmittance(stage.world().medium(medium), length(p - path.ray.origin));
+        add_clamped(settings, {value, light, path.signature}, sink);
+    });
 }
 
 /// Light from infinitely far away along a ray that met nothing.
-void add_background(world::World const& world, PathSettings const& settings, PathState const& path,
+void add_background(lights::Stage const& stage, PathSettings const& settings, PathState const& path,
                     film::SampleSink& sink) {
     Color seen;
-    world.lights().environment(
+    lights::LightTable const& lights = stage.lights();
+    lights.environment(
         path.at, path.ray.direction, [&](int32_t light, Color const& radiance, float pdf) {
-            if (path.signature.length() == 0 && world.lights()[light].hidden_from_camera) return;
+            if (path.signature.length() == 0 && lights[light].hidden_from_camera) return;
             seen += radiance;
             float const weight = found_weight(settings.strategy, path, pdf) *
-                                 found_factor(world, settings, path, light, kInfinity);
+                                 found_factor(stage.lights(), settings, path, light, kInfinity);
             add_clamped(settings,
                         {path.throughput * radiance * weight, light, path.signature, -1,
                          film::Found::InBackground},
@@ -104,12 +108,13 @@ bool fly(world::World const& world, PathState& path, float limit, sampling::Samp
 }
 
 /// Light sampling at the ray's origin inside the medium, and a new direction.
-void scatter_in_medium(world::World const& world, PathSettings const& settings, PathState& path,
+void scatter_in_medium(lights::Stage const& stage, PathSettings const& settings, PathState& path,
                        uint32_t vertex, sampling::SampleStream const& u, film::SampleSink& sink) {
     FeatureScope const scope(Feature::Media);
     ScatterPoint point;
     point.at = {path.ray.origin, Vec3(0), light_choices(settings, path)};
     point.wo = -path.ray.direction;
+    world::World const& world = stage.world();
     point.g = world.medium(path.media.current().medium).g;
     if (uint32_t const object = path.media.current().object; object != UINT32_MAX)
         point.sets = world.object(object).sets;
@@ -117,7 +122,7 @@ void scatter_in_medium(world::World const& world, PathSettings const& settings, 
     path.scattered = path.diffused = true;
     path.caustic = false;
     if (sink.record()) record_volume(path, *sink.record());
-    direct(world, settings, path, point, u, vertex, sink);
+    direct(stage, settings, path, point, u, vertex, sink);
     path.at = point.at;
     path.sets = point.sets;
     path.kind = world::RayKind::volume;
@@ -183,9 +188,10 @@ bool survives_roulette(PathState& path, float u) {
 
 } // namespace
 
-void trace_path(world::World const& world, PathSettings const& settings, world::Ray const& ray,
+void trace_path(lights::Stage const& stage, PathSettings const& settings, world::Ray const& ray,
                 media::MediumStack const& media, sampling::SampleStream const& u,
                 film::SampleSink& sink) {
+    world::World const& world = stage.world();
     PathState path;
     path.ray = ray;
     path.ray.mask = ray_mask(settings, path.kind);
@@ -198,13 +204,13 @@ void trace_path(world::World const& world, PathSettings const& settings, world::
         uint32_t const alpha_seed =
             world.has_alpha() ? u.walk(Dimension::Alpha, step).next_uint() : 0;
         world::Hit const hit = world.intersect(path.ray, alpha_seed);
-        add_lamps(world, settings, path, hit.t, sink);
+        add_lamps(stage, settings, path, hit.t, sink);
 
         if (fly(world, path, hit.t, u, step)) {
             if (vertex == settings.depth) return;
-            scatter_in_medium(world, settings, path, step, u, sink);
+            scatter_in_medium(stage, settings, path, step, u, sink);
         } else if (!hit) {
-            add_background(world, settings, path, sink);
+            add_background(stage, settings, path, sink);
             return;
         } else {
             shading::SurfacePoint const point = world.surface(path.ray, hit);
@@ -235,7 +241,7 @@ void trace_path(world::World const& world, PathSettings const& settings, world::
                 if (object.holdout) {
                     if (!hold_out(path, shading.bsdf, object.is_see_through, sink)) return;
                 } else if (sink.record() && !last) {
-                    catch_shadow(world, settings, path, here, u, step, *sink.record());
+                    catch_shadow(stage, settings, path, here, u, step, *sink.record());
                 }
                 ++crossings; // no vertex, either
                 continue_from(world, path, point, path.ray.direction, false);
@@ -243,11 +249,11 @@ void trace_path(world::World const& world, PathSettings const& settings, world::
                 continue;
             }
             if (sink.record()) record_surface(world, path, point, shading, *sink.record());
-            add_emission(world, settings, path, point, shading.emission, sink);
+            add_emission(stage, settings, path, point, shading.emission, sink);
             if (last && !object.is_see_through) return;
 
-            if (shading.bsdf.has_smooth() && !world.lights().empty() && !last)
-                direct(world, settings, path, here, u, step, sink);
+            if (shading.bsdf.has_smooth() && !stage.lights().empty() && !last)
+                direct(stage, settings, path, here, u, step, sink);
 
             lobes::BsdfSample const s =
                 sample_bsdf(shading.bsdf, wo, u.get3(Dimension::Bsdf, step), settings.by_part);

@@ -9,7 +9,7 @@ namespace weft::integrator {
 
 /// Follows one path from the camera and hands every contribution to `sink`. `media`: what the
 /// camera is in.
-void trace_path(world::World const& world, PathSettings const& settings, world::Ray const& ray,
+void trace_path(lights::Stage const& stage, PathSettings const& settings, world::Ray const& ray,
                 media::MediumStack const& media, sampling::SampleStream const& u,
                 film::SampleSink& sink);
 

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "film/contribution.h"
+#include "lights/stage.h"
 #include "media/medium_stack.h"
 #include "sampling/stream.h"
 #include "scene/render_settings.h"
-#include "world/world.h"
 
 namespace weft::integrator {
 
@@ -37,9 +37,9 @@ struct PathState {
     bool caustic = false;   ///< and then by a mirror, glass or gloss last
 
     // The last scattering, for weighing what the ray finds against what light sampling finds.
-    float pdf = 0;      ///< of the ray's direction; 0: delta or camera, which nothing else finds
-    world::LitPoint at; ///< where it was; the camera where there was none
-    uint64_t sets = 0;  ///< of instances that it belongs to
+    float pdf = 0;       ///< of the ray's direction; 0: delta or camera, which nothing else finds
+    lights::LitPoint at; ///< where it was; the camera where there was none
+    uint64_t sets = 0;   ///< of instances that it belongs to
     world::RayKind kind = world::RayKind::camera;
     float eta_scale = 1; ///< undoes the radiance scaling of refraction for roulette
 };
@@ -59,7 +59,7 @@ inline uint32_t light_choices(PathSettings const& settings, PathState const& pat
 /// A place where a path scatters: a surface with lobes, or a point in a medium with a phase
 /// function. `direct` treats both alike.
 struct ScatterPoint {
-    world::LitPoint at;
+    lights::LitPoint at;
     Vec3 wo{0, 0, 1};
     lobes::Bsdf const* bsdf = nullptr; ///< of a surface
     shading::SurfacePoint const* surface = nullptr;

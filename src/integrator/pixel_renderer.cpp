@@ -86,13 +86,13 @@ bool combines_strategies(scene::Integrator const& integrator) {
     return path_settings(integrator).strategy == scene::Strategy::mis;
 }
 
-PixelRenderer::PixelRenderer(world::World const& world, scene::Integrator const& integrator,
+PixelRenderer::PixelRenderer(lights::Stage const& stage, scene::Integrator const& integrator,
                              scene::Sampler const& sampler, uint32_t seed, int samples_per_pixel)
-    : world_(world), integrator_(integrator), path_(path_settings(integrator)),
-      sampler_(sampler_kind(sampler)), seed_(seed),
+    : stage_(stage), world_(stage.world()), integrator_(integrator),
+      path_(path_settings(integrator)), sampler_(sampler_kind(sampler)), seed_(seed),
       filter_(make_filter(match(integrator, [](auto const& i) { return i.target; }))),
-      media_(media_at(world, world.camera().position())) {
-    path_.by_part = path_.controls && (world.has_controls_by_kind() || !path_.caustics);
+      media_(media_at(world_, world_.camera().position())) {
+    path_.by_part = path_.controls && (stage.has_controls_by_kind() || !path_.caustics);
     path_.footprint_scale = world::footprint_scale(
         samples_per_pixel > 0 ? samples_per_pixel
                               : match(sampler, [](auto const& s) { return s.count; }));
@@ -173,10 +173,10 @@ Color PixelRenderer::sample(Vec2i pixel, uint32_t sample, film::SampleRecord* re
                                           .direction = ray.direction,
                                           .value = Color(1)});
             film::SampleSink sink(record);
-            trace_path(world_, path_, ray, media_, u, sink);
+            trace_path(stage_, path_, ray, media_, u, sink);
             if (record && record->layout().has(film::Aov::removed)) {
                 film::SampleSink whole;
-                trace_path(world_, unruled_, ray, media_, u, whole);
+                trace_path(stage_, unruled_, ray, media_, u, whole);
                 record->add_removed(whole.beauty() - sink.beauty());
             }
             return sink.beauty();

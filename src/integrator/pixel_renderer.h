@@ -7,14 +7,14 @@
 
 namespace weft::integrator {
 
-/// Whether what light sampling misses is found by rays: see world::CommitOptions::compensate.
+/// Whether what light sampling misses is found by rays: see lights::Stage::commit.
 bool combines_strategies(scene::Integrator const& integrator);
 
 class PixelRenderer {
   public:
     /// `samples_per_pixel`: how many are to be taken, 0 for what the sampler says; footprints of
     /// textures are the smaller the more there are.
-    PixelRenderer(world::World const& world, scene::Integrator const& integrator,
+    PixelRenderer(lights::Stage const& stage, scene::Integrator const& integrator,
                   scene::Sampler const& sampler, uint32_t seed, int samples_per_pixel = 0);
 
     /// The radiance that sample number `sample` of `pixel` sees: a pure function of its arguments,
@@ -33,7 +33,8 @@ class PixelRenderer {
     Color trace(scene::NormalIntegrator const& i, world::Ray const& ray, uint32_t alpha_seed) const;
     Color trace(scene::AlbedoIntegrator const& i, world::Ray const& ray, uint32_t alpha_seed) const;
 
-    world::World const& world_;
+    lights::Stage const& stage_;
+    world::World const& world_; ///< of the stage
     scene::Integrator integrator_;
     PathSettings path_, unruled_; ///< the second without controls and simpler materials
     sampling::SamplerKind sampler_;

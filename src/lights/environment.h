@@ -19,7 +19,7 @@
 #include <span>
 
 #include "base/distribution.h"
-#include "lights/lat_long.h"
+#include "base/lat_long.h"
 
 namespace weft::lights {
 

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "base/blackbody.h"
+#include "base/lat_long.h"
 #include "lights/hosek_wilkie_tables.h"
-#include "lights/lat_long.h"
 
 namespace weft::lights {
 

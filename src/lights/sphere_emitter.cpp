@@ -1,9 +1,9 @@
 #include <numbers>
 
 #include "base/frame.h"
+#include "base/lat_long.h"
 #include "base/warp.h"
 #include "lights/emitter_geometry.h"
-#include "lights/lat_long.h"
 
 namespace weft::lights {
 

@@ -130,9 +130,9 @@ film::Region region_of(world::World const& world, RenderOptions const& options) 
     return c;
 }
 
-film::Layout make_layout(world::World const& world, scene::RenderJob const& job,
+film::Layout make_layout(lights::Stage const& stage, scene::RenderJob const& job,
                          RenderOptions const& options) {
-    film::SceneTags const tags = scene_tags(world);
+    film::SceneTags const tags = scene_tags(stage);
     auto const from_scene = wanted_aovs(job.integrator);
     std::vector<film::Aov> aovs(from_scene.begin(), from_scene.end());
     aovs.insert(aovs.end(), options.aovs.begin(), options.aovs.end());
@@ -277,30 +277,30 @@ RenderState state_of(RenderResult const& result, Identity const& identity,
 
 } // namespace
 
-RenderState starting_state(world::World const& world, scene::RenderJob const& job,
+RenderState starting_state(lights::Stage const& stage, scene::RenderJob const& job,
                            RenderOptions const& options) {
     RenderResult fresh;
     fresh.samples = sample_limit(job, options);
-    fresh.film = film::Film(region_of(world, options), make_layout(world, job, options));
-    return to_state(std::move(fresh), world, job, options);
+    fresh.film = film::Film(region_of(stage.world(), options), make_layout(stage, job, options));
+    return to_state(std::move(fresh), stage, job, options);
 }
 
-RenderState to_state(RenderResult&& result, world::World const& world, scene::RenderJob const& job,
+RenderState to_state(RenderResult&& result, lights::Stage const& stage, scene::RenderJob const& job,
                      RenderOptions const& options) {
-    RenderState state = state_of(result, identify(world, job, options), options);
+    RenderState state = state_of(result, identify(stage, job, options), options);
     state.film = std::move(result.film);
     return state;
 }
 
-RenderResult render(world::World const& world, scene::RenderJob const& job,
+RenderResult render(lights::Stage const& stage, scene::RenderJob const& job,
                     RenderOptions const& options) {
     RenderResult result;
-    result.region = region_of(world, options);
-    result.tags = scene_tags(world);
-    film::Layout const layout = make_layout(world, job, options);
+    result.region = region_of(stage.world(), options);
+    result.tags = scene_tags(stage);
+    film::Layout const layout = make_layout(stage, job, options);
     check_memory(result.region, layout, !options.watchers.empty(), job.where);
     result.samples = sample_limit(job, options);
-    integrator::PixelRenderer const renderer(world, job.integrator, job.sampler, options.seed,
+    integrator::PixelRenderer const renderer(stage, job.integrator, job.sampler, options.seed,
                                              footprint_samples(job, options));
     result.film = film::Film(result.region, layout);
     double seconds_before = 0;
@@ -333,7 +333,7 @@ RenderResult render(world::World const& world, scene::RenderJob const& job,
         if (!cancelled()) samples_done = result.pass.to;
     };
 
-    Identity const identity = options.watchers.empty() ? Identity() : identify(world, job, options);
+    Identity const identity = options.watchers.empty() ? Identity() : identify(stage, job, options);
     std::optional<Watching> watching(std::in_place, options.watchers, [&] {
         auto const standing_still = gate.stop();
         RenderState state = state_of(result, identity, options);

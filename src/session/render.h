@@ -17,9 +17,9 @@
 #include "base/profiler.h"
 #include "film/film.h"
 #include "image/image.h"
+#include "lights/stage.h"
 #include "scene/job.h"
 #include "session/tiles.h"
-#include "world/world.h"
 
 namespace weft::session {
 
@@ -108,7 +108,7 @@ film::Region region_of(world::World const& world, RenderOptions const& options);
 
 /// The channels that the film will have. Throws InputError where AOVs are asked of an integrator
 /// that follows no light.
-film::Layout make_layout(world::World const& world, scene::RenderJob const& job,
+film::Layout make_layout(lights::Stage const& stage, scene::RenderJob const& job,
                          RenderOptions const& options);
 
 /// The samples per pixel that the render makes at most.
@@ -118,12 +118,12 @@ uint32_t sample_limit(scene::RenderJob const& job, RenderOptions const& options)
 int footprint_samples(scene::RenderJob const& job, RenderOptions const& options);
 
 /// Everything about a result that a state file keeps, its film moved out.
-RenderState to_state(RenderResult&& result, world::World const& world, scene::RenderJob const& job,
+RenderState to_state(RenderResult&& result, lights::Stage const& stage, scene::RenderJob const& job,
                      RenderOptions const& options);
 
 /// Throws InputError where the crop lies outside of the picture, memory cannot hold it, or AOVs are
 /// asked of an integrator that follows no light.
-RenderResult render(world::World const& world, scene::RenderJob const& job,
+RenderResult render(lights::Stage const& stage, scene::RenderJob const& job,
                     RenderOptions const& options);
 
 } // namespace weft::session

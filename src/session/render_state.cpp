@@ -116,11 +116,11 @@ bool is_finished(RenderState const& s) {
 
 } // namespace
 
-Identity identify(world::World const& world, scene::RenderJob const& job,
+Identity identify(lights::Stage const& stage, scene::RenderJob const& job,
                   RenderOptions const& options) {
-    film::Region const region = region_of(world, options);
-    Vec2i const size = world.camera().size();
-    film::Layout const layout = make_layout(world, job, options);
+    film::Region const region = region_of(stage.world(), options);
+    Vec2i const size = stage.world().camera().size();
+    film::Layout const layout = make_layout(stage, job, options);
     return {{"version", options.version},
             {"scene", fmt::format("{:016x}", scene::scene_hash(*job.scene))},
             {"integrator", text_of(job.integrator)},

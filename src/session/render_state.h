@@ -20,7 +20,7 @@ namespace weft::session {
 using Identity = std::vector<std::pair<std::string, std::string>>;
 
 /// Of a render that `render` would make. `options.kernel` counts as the user gave it.
-Identity identify(world::World const& world, scene::RenderJob const& job,
+Identity identify(lights::Stage const& stage, scene::RenderJob const& job,
                   RenderOptions const& options);
 
 /// "seed is 1 here and 0 there; ...", or "" where they are equal.
@@ -40,7 +40,7 @@ struct RenderState {
 };
 
 /// The state of that render before its first sample.
-RenderState starting_state(world::World const& world, scene::RenderJob const& job,
+RenderState starting_state(lights::Stage const& stage, scene::RenderJob const& job,
                            RenderOptions const& options);
 
 /// As bytes.

@@ -39,17 +39,19 @@ char const* bounce_text(film::Bounce bounce) {
     return "nothing";
 }
 
-std::string light_text(world::World const& world, PathEvent const& e) {
+std::string light_text(lights::Stage const& stage, PathEvent const& e) {
+    world::World const& world = stage.world();
     int32_t object = e.object;
-    for (uint32_t i = 0; object < 0 && e.light >= 0 && i < world.statistics().objects; ++i)
-        if (world.object(i).light == e.light) object = int32_t(i);
-    std::string const group = e.light >= 0 ? world.lights()[e.light].controls.group : "";
+    for (uint32_t i = 0; object < 0 && e.light >= 0 && i < world.objects().size(); ++i)
+        if (stage.lights().of_object(i) == e.light) object = int32_t(i);
+    std::string const group = e.light >= 0 ? stage.lights()[e.light].controls.group : "";
     return (e.light >= 0 ? fmt::format("light {}", e.light) : "an emission that is no light") +
            (object >= 0 ? " on '" + object_name(world, uint32_t(object)) + "'" : "") +
            (group.empty() ? "" : " of the group '" + group + "'");
 }
 
-std::string event_text(world::World const& world, PathEvent const& e, int& vertex) {
+std::string event_text(lights::Stage const& stage, PathEvent const& e, int& vertex) {
+    world::World const& world = stage.world();
     switch (e.kind) {
     case PathEvent::Kind::Camera:
         return fmt::format("camera at {} towards {}\n", text(e.p), text(e.direction));
@@ -74,7 +76,7 @@ std::string event_text(world::World const& world, PathEvent const& e, int& verte
                            text(e.direction), text(e.value));
     case PathEvent::Kind::Light:
         return fmt::format("  + {} from {}, {}, over {} bounces\n", text(e.value),
-                           light_text(world, e), e.sampled ? "sampled" : "met by the ray",
+                           light_text(stage, e), e.sampled ? "sampled" : "met by the ray",
                            e.bounces);
     }
     return "";
@@ -82,14 +84,14 @@ std::string event_text(world::World const& world, PathEvent const& e, int& verte
 
 } // namespace
 
-Replay replay(world::World const& world, scene::RenderJob const& job,
+Replay replay(lights::Stage const& stage, scene::RenderJob const& job,
               ReplayOptions const& options) {
-    Vec2i const size = world.camera().size(), p = options.pixel;
+    Vec2i const size = stage.world().camera().size(), p = options.pixel;
     if (p.x < 0 || p.y < 0 || p.x >= size.x || p.y >= size.y)
         throw InputError(fmt::format("--pixel expects a pixel inside of the picture of {} x {}, "
                                      "found {},{}",
                                      size.x, size.y, p.x, p.y));
-    integrator::PixelRenderer const renderer(world, job.integrator, job.sampler, options.seed,
+    integrator::PixelRenderer const renderer(stage, job.integrator, job.sampler, options.seed,
                                              options.spp);
     if (!renderer.follows_light())
         throw InputError(job.where,
@@ -103,10 +105,10 @@ Replay replay(world::World const& world, scene::RenderJob const& job,
     return result;
 }
 
-std::string replay_text(world::World const& world, Replay const& replay) {
+std::string replay_text(lights::Stage const& stage, Replay const& replay) {
     std::string all;
     int vertex = 0;
-    for (PathEvent const& e : replay.events) all += event_text(world, e, vertex);
+    for (PathEvent const& e : replay.events) all += event_text(stage, e, vertex);
     char const* const verdict = !is_finite(replay.value)          ? " (not finite)"
                                 : min_component(replay.value) < 0 ? " (negative)"
                                                                   : "";

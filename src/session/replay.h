@@ -4,8 +4,8 @@
 #include <string>
 
 #include "film/path_log.h"
+#include "lights/stage.h"
 #include "scene/job.h"
-#include "world/world.h"
 
 namespace weft::session {
 
@@ -22,10 +22,11 @@ struct Replay {
 
 /// Throws InputError for a pixel outside of the picture and for an integrator that follows no
 /// light.
-Replay replay(world::World const& world, scene::RenderJob const& job, ReplayOptions const& options);
+Replay replay(lights::Stage const& stage, scene::RenderJob const& job,
+              ReplayOptions const& options);
 
 /// For a terminal: each vertex with its object and material, how the path went on, and what light
 /// it gained there.
-std::string replay_text(world::World const& world, Replay const& replay);
+std::string replay_text(lights::Stage const& stage, Replay const& replay);
 
 } // namespace weft::session

@@ -16,20 +16,22 @@ uint16_t group_index(std::vector<std::string>& groups, std::string const& name) 
     return uint16_t(groups.size() - 1);
 }
 
-void add_light_groups(world::World const& world, film::SceneTags& tags) {
+void add_light_groups(lights::Stage const& stage, film::SceneTags& tags) {
+    world::World const& world = stage.world();
+    lights::LightTable const& lights = stage.lights();
     auto& groups = tags.light_groups;
     auto const of_object = [&](world::Object const& o) -> uint16_t {
         if (o.group_instance < 0) return 0;
         return group_index(groups, world.scene().instances[size_t(o.group_instance)].group);
     };
-    for (size_t i = 0; i < world.lights().size(); ++i)
-        tags.group_of_light.push_back(
-            group_index(groups, world.lights()[int32_t(i)].controls.group));
+    for (size_t i = 0; i < lights.size(); ++i)
+        tags.group_of_light.push_back(group_index(groups, lights[int32_t(i)].controls.group));
     for (uint32_t i = 0; i < world.statistics().objects; ++i) {
         world::Object const& o = world.object(i);
         tags.group_of_object.push_back(of_object(o));
-        if (o.light >= 0 && world.lights()[o.light].controls.group.empty())
-            tags.group_of_light[size_t(o.light)] = tags.group_of_object.back();
+        int32_t const light = lights.of_object(i);
+        if (light >= 0 && lights[light].controls.group.empty())
+            tags.group_of_light[size_t(light)] = tags.group_of_object.back();
     }
     if (groups.size() > UINT16_MAX) throw InputError("expected at most 65535 light groups");
 }
@@ -58,9 +60,10 @@ std::string material_name(world::World const& world, uint32_t object) {
            "_" + std::to_string(index);
 }
 
-film::SceneTags scene_tags(world::World const& world) {
+film::SceneTags scene_tags(lights::Stage const& stage) {
+    world::World const& world = stage.world();
     film::SceneTags tags;
-    add_light_groups(world, tags);
+    add_light_groups(stage, tags);
     tags.layers = world.layer_labels();
     scene::Scene const& scene = world.scene();
     for (uint32_t i = 0; i < world.statistics().objects; ++i) {

@@ -1,9 +1,9 @@
 #include "world/camera_rays.h"
 
 #include "base/color.h"
+#include "base/lat_long.h"
 #include "base/match.h"
 #include "base/warp.h"
-#include "lights/lat_long.h"
 
 namespace weft::world {
 
@@ -96,8 +96,7 @@ Ray CameraRays::ray(Vec2 raster, Vec2 lens, float time, float footprint_scale) c
     Vec3 origin(0), direction(0, 0, 1);
     RayCone cone;
     if (projection_ == Projection::Environment) {
-        direction =
-            lights::uv_to_direction({raster.x / float(size_.x), 1 - raster.y / float(size_.y)});
+        direction = uv_to_direction({raster.x / float(size_.x), 1 - raster.y / float(size_.y)});
         cone.spread = kPi / float(size_.y);
     } else if (Vec2 const s = on_screen(raster); projection_ == Projection::Orthographic) {
         origin = {s.x, s.y, 0};

@@ -20,7 +20,7 @@ UvGradients triangle_gradients(Vec3 const& e1, Vec3 const& e2, Vec2 d1, Vec2 d2)
     return {b1 * d1.x + b2 * d2.x, b1 * d1.y + b2 * d2.y};
 }
 
-/// Of lat-long coordinates (lights/lat_long.h) on the unit sphere.
+/// Of lat-long coordinates (base/lat_long.h) on the unit sphere.
 UvGradients sphere_gradients(Vec3 const& p) {
     constexpr float nearest_to_pole = 1e-4f;
     float const r2 = std::max(p.x * p.x + p.z * p.z, square(nearest_to_pole)), r = std::sqrt(r2);

@@ -280,6 +280,14 @@ Color World::visibility(Ray const& ray, bool secondary) const {
     return query.tfar < 0 ? Color(0) : context.visibility;
 }
 
+float World::radius() const {
+    RTCBounds box;
+    rtcGetSceneBounds(embree_scene_, &box);
+    Vec3 const extent(box.upper_x - box.lower_x, box.upper_y - box.lower_y,
+                      box.upper_z - box.lower_z);
+    return is_finite(extent) && extent.x >= 0 ? 0.5f * length(extent) : 1;
+}
+
 World::~World() {
     if (embree_scene_) rtcReleaseScene(embree_scene_);
     for (RTCScene scene : instanced_scenes_) rtcReleaseScene(scene);

@@ -1,13 +1,24 @@
 // The named sets of instances that lights link to, as bits.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
-#include "world/light_rules.h"
 
 namespace weft::world {
+
+/// Of named sets, as bits: those that are meant and those that are excepted.
+struct Links {
+    uint64_t include = 0, exclude = 0; ///< include 0: all
+
+    friend bool operator==(Links const&, Links const&) = default;
+    explicit operator bool() const { return (include | exclude) != 0; }
+    bool accept(uint64_t sets) const {
+        return (include == 0 || (include & sets) != 0) && (exclude & sets) == 0;
+    }
+};
 
 class SetNames {
   public:

@@ -1,5 +1,6 @@
 // From the kernel's answer to a surface point.
 #include "base/feature.h"
+#include "base/lat_long.h"
 #include "world/world.h"
 
 namespace weft::world {
@@ -132,7 +133,7 @@ void World::sphere_point(Object const& object, Vec3 const& local,
                          shading::SurfacePoint& point) const {
     point.p = object.to_world.point(local);
     point.ng = point.ns = normalize(object.to_object.transposed(local));
-    point.uv = lights::direction_to_uv(local);
+    point.uv = direction_to_uv(local);
     if (object.has_tangents) {
         point.dpdu = object.to_world.vector(Vec3(local.z, 0, -local.x) * (2 * kPi));
         if (float const r = std::sqrt(square(local.x) + square(local.z)); r > 0)
@@ -184,7 +185,7 @@ float World::opacity(Hit const& hit, Vec3 const& ng, Vec3 const& direction) cons
         return textures_.opacity(o.opacity, filtered_point(hit, ng, direction));
     Vec2 const uv = o.kind == ObjectKind::Mesh   ? mesh_uv(o, hit)
                     : o.kind == ObjectKind::Disk ? disk_uv(hit)
-                                                 : lights::direction_to_uv(sphere_local(o, ng));
+                                                 : direction_to_uv(sphere_local(o, ng));
     return textures_.opacity(o.opacity, uv);
 }
 

@@ -1,4 +1,5 @@
-// The committed scene: everything a render reads, immutable and shared by all threads.
+// The committed geometry of a scene and what its surfaces look like, immutable and shared by all
+// threads. Lights are built over it (lights/stage.h).
 //
 // Geometry is a list of *objects*: one shape at one place. Groups are opened when the world is
 // made. An object whose mesh is used only once is stored in world space; meshes used several
@@ -7,6 +8,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,12 +16,13 @@
 #include "media/medium_stack.h"
 #include "scene/scene.h"
 #include "shading/materials.h"
+#include "shading/spread.h"
 #include "shading/textures.h"
 #include "world/camera_rays.h"
 #include "world/embree.h"
-#include "world/light_table.h"
 #include "world/ray.h"
 #include "world/ray_recorder.h"
+#include "world/set_names.h"
 
 namespace weft::world {
 
@@ -54,11 +57,10 @@ struct Object {
     int32_t triangles = -1;    ///< index of the TriangleData
     scene::MaterialId material;
     shading::Emission emission;
-    lights::Spread spread; ///< of the emission
+    shading::Spread spread; ///< of the emission
     scene::TextureId normal_map;
     shading::Opacity opacity;
     scene::Input<float> ior{1}; ///< of its inside
-    int32_t light = -1;         ///< index of the light that samples it; -1 none
     int32_t medium = -1;        ///< what fills it
     int32_t priority = 0;       ///< as the user gave it
     int32_t rank = 0; ///< among all with an interior: the higher is there where they overlap
@@ -83,24 +85,30 @@ struct Object {
     bool holdout = false, shadow_catcher = false; ///< what the camera sees in its place
 };
 
+/// Whether rays of a kind meet objects of visibility `v`.
+bool is_visible(scene::RayVisibility const& v, RayKind kind);
+
 struct CommitOptions {
     std::string isa;  ///< Embree's kernels: "sse2", "avx2", "avx512"; "" is the best there is
     Vec2i size{0, 0}; ///< of the picture, instead of the scene's; 0: the scene's
-    /// Light sampling leaves to BSDF sampling what that finds well: only for renders that combine
-    /// both (integrator::combines_strategies).
-    bool compensate = false;
 };
 
 /// Counts for `weft info`.
 struct WorldStatistics {
-    size_t objects = 0, triangles = 0, unique_triangles = 0, lights = 0, memory_bytes = 0;
+    size_t objects = 0, triangles = 0, unique_triangles = 0, memory_bytes = 0;
+};
+
+/// An object that emits because an area light of the scene holds it.
+struct AreaObject {
+    uint32_t object;
+    scene::LightId light;
 };
 
 class World {
   public:
     /// Throws InputError where the scene cannot be rendered (no camera).
-    static std::unique_ptr<World const> commit(std::shared_ptr<scene::Scene const> scene,
-                                               CommitOptions const& options = {});
+    static std::unique_ptr<World> commit(std::shared_ptr<scene::Scene const> scene,
+                                         CommitOptions const& options = {});
     ~World();
     World(World const&) = delete;
     World& operator=(World const&) = delete;
@@ -132,6 +140,14 @@ class World {
     Color emission(shading::SurfacePoint const& point, Vec3 const& wo) const;
 
     Object const& object(uint32_t index) const { return objects_[index]; }
+    std::span<Object const> objects() const { return objects_; }
+    TriangleData const& triangles(Object const& mesh) const {
+        return triangles_[size_t(mesh.triangles)];
+    }
+    /// Those of one light of the scene stand side by side.
+    std::span<AreaObject const> area_objects() const { return area_objects_; }
+    /// Makes an object emit `factor` times as much, for the light that holds it and has a power.
+    void scale_emission(uint32_t object, float factor) { objects_[object].emission.tint *= factor; }
     /// What is inside of the object whose surface `point` is on.
     media::Interior interior(shading::SurfacePoint const& point) const;
     media::Medium const& medium(int32_t index) const { return media_[size_t(index)]; }
@@ -139,21 +155,28 @@ class World {
     media::MediumStack outside() const { return outside_; }
     /// Whether straight lines may cross media or passable boundaries.
     bool has_media() const { return has_media_; }
-    /// Whether lights or objects heed controls (scene/light_controls.h, scene::RayVisibility).
+    /// Whether objects heed controls (scene::RayVisibility, holdouts, shadow catchers, ...).
     bool has_controls() const { return has_controls_; }
     /// Whether these depend on the kind of scattering.
     bool has_controls_by_kind() const { return has_controls_by_kind_; }
+    /// The named sets of instances that lights link to.
+    SetNames const& sets() const { return sets_; }
+    /// What a ray's mask has to be for it to meet the objects that `blockers`, the value of some
+    /// light's `shadowedBy`, names.
+    RayMask shadow_mask(Links const& blockers) const;
     /// Whether any surface is partly transparent.
     bool has_alpha() const { return has_alpha_; }
 
     CameraRays const& camera() const { return camera_; }
-    LightTable const& lights() const { return lights_; }
     /// The names of materials' layers, in the order of `lobes::Lobe::layer`.
     std::vector<std::string> const& layer_labels() const { return materials_.labels(); }
     shading::Textures const& textures() const { return textures_; }
     scene::Scene const& scene() const { return *scene_; }
     WorldStatistics const& statistics() const { return statistics_; }
     RTCScene embree_scene() const { return embree_scene_; }
+    RTCDevice device() const { return device_; }
+    /// Half the diagonal of the box around all objects; 1 where nothing is there.
+    float radius() const;
     /// Records every ray into `recorder` (null: none), for measuring the kernel alone.
     void record_rays(RayRecorder* recorder) const { recorder_ = recorder; }
 
@@ -198,7 +221,9 @@ class World {
     std::vector<media::Medium> media_;
     shading::Textures textures_;
     shading::Materials materials_;
-    LightTable lights_;
+    std::vector<AreaObject> area_objects_;
+    SetNames sets_;
+    std::vector<Links> shadow_links_; ///< one per bit of the ray masks
     CameraRays camera_;
     media::MediumStack outside_;
     WorldStatistics statistics_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 
 namespace weft::world {
 
@@ -40,8 +41,8 @@ bool keeps_circles(Affined const& m) {
 
 } // namespace
 
-std::unique_ptr<World const> World::commit(std::shared_ptr<scene::Scene const> scene,
-                                           CommitOptions const& options) {
+std::unique_ptr<World> World::commit(std::shared_ptr<scene::Scene const> scene,
+                                     CommitOptions const& options) {
     std::unique_ptr<World> world(new World);
     world->scene_ = scene;
     WorldBuilder(*world, *scene, options).build();
@@ -62,7 +63,6 @@ void WorldBuilder::build() {
     rank_boundaries();
     attach_attributes();
     build_kernel_scene();
-    build_lights();
     media::Interior space;
     if (scene_.contents.medium) {
         auto const& m = scene_.media[size_t(scene_.contents.medium.index)];
@@ -100,9 +100,14 @@ void WorldBuilder::collect_instances() {
         add_instance(root, {});
         if (auto const it = area_lights.find(root); it != area_lights.end())
             for (size_t i = first; i < world_.objects_.size(); ++i)
-                if (world_.objects_[i].emission)
-                    area_objects_.emplace_back(uint32_t(i), it->second);
+                if (world_.objects_[i].emission) add_area_object(uint32_t(i), it->second);
     }
+}
+
+void WorldBuilder::add_area_object(uint32_t object, scene::LightId light) {
+    auto const& area = std::get<scene::AreaLight>(scene_.lights[size_t(light.index)]);
+    world_.objects_[object].spread = shading::Spread(area.spread);
+    world_.area_objects_.push_back({object, light});
 }
 
 void WorldBuilder::add_instance(int32_t index, Inherited const& outer) {
@@ -123,8 +128,8 @@ void WorldBuilder::add_instance(int32_t index, Inherited const& outer) {
     given.visibility = all_of(outer.visibility, instance.visibility);
     given.holdout = outer.holdout || instance.holdout;
     given.shadow_catcher = outer.shadow_catcher || instance.shadow_catcher;
-    given.sets =
-        outer.sets | sets_.declare(instance.sets, location_of(scene_, scene::InstanceId{index}));
+    given.sets = outer.sets |
+                 world_.sets_.declare(instance.sets, location_of(scene_, scene::InstanceId{index}));
     given.trace_distance =
         outer.trace_distance > 0 ? outer.trace_distance : instance.trace_distance;
     given.root_instance = outer.root_instance >= 0 ? outer.root_instance : index;
@@ -311,8 +316,6 @@ int32_t WorldBuilder::baked_triangles(std::shared_ptr<scene::Mesh const> mesh, b
 void WorldBuilder::count() {
     WorldStatistics& s = world_.statistics_;
     s.objects = world_.objects_.size();
-    s.lights = world_.lights_.size();
-    s.memory_bytes += world_.lights_.memory_bytes();
     std::set<image::Texture const*> images;
     for (auto const& image : scene_.images) images.insert(image.get());
     for (auto const* image : images) s.memory_bytes += image->memory_bytes();

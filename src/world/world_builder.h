@@ -1,21 +1,11 @@
-// Makes a World out of a Scene: opens groups, stores geometry, builds the kernel's scenes and
-// the lights.
+// Makes a World out of a Scene: opens groups, stores geometry, and builds the kernel's scenes.
 #pragma once
 
 #include <map>
-#include <set>
 
-#include "world/set_names.h"
 #include "world/world.h"
 
 namespace weft::world {
-
-/// The bounds of what shines from infinitely far away.
-inline lights::LightBounds at_infinity() {
-    lights::LightBounds bounds;
-    bounds.at_infinity = true;
-    return bounds;
-}
 
 class WorldBuilder {
   public:
@@ -43,6 +33,7 @@ class WorldBuilder {
 
     void collect_instances();
     void add_instance(int32_t index, Inherited const& outer);
+    void add_area_object(uint32_t object, scene::LightId light);
     void add_object(scene::Shape const& shape, int32_t instance, Inherited const& given);
     int32_t add_medium(media::Medium const& medium);
     int32_t medium_of(Inherited const& given);
@@ -65,32 +56,8 @@ class WorldBuilder {
 
     void compile_networks();
     void attach_attributes();
-    void build_lights();
-    /// What objects and lights say of each other and of rays, in build_light_rules.cpp.
+    /// Says which rays meet which objects, in build_masks.cpp.
     void mask_objects();
-    RayMask shadow_mask(Links const& links) const;
-    void link_lights(LightList& list);
-    AreaLight make_area_light(uint32_t object, scene::AreaLight const& from) const;
-    /// A light's brightness, at least 0. Throws InputError where it varies.
-    Color brightness(scene::Input<Color> const& input, std::string const& title);
-    /// The gobo of a spot, if there is one, and how much it lets through: the mean, weighted by
-    /// what the spot sends there.
-    std::pair<std::optional<Gobo>, float> make_gobo(scene::SpotLight const& light,
-                                                    lights::SpotLight const& spot);
-    void add_lamp(Lamp lamp, float power, scene::LightControls const& controls, LightList& list);
-    void prepare_environment(scene::EnvironmentLight const& light, SourceLocation const& where);
-    void add_light(scene::PointLight const&, SourceLocation const&, LightList&);
-    void add_light(scene::DirectionalLight const&, SourceLocation const&, LightList&);
-    void add_light(scene::SpotLight const&, SourceLocation const&, LightList&);
-    void add_light(scene::IesLight const&, SourceLocation const&, LightList&);
-    void add_light(scene::EnvironmentLight const&, SourceLocation const&, LightList&);
-    void add_light(scene::SkyLight const&, SourceLocation const&, LightList&);
-    /// Whether rays find what sampling of the light leaves.
-    bool is_compensated(scene::LightControls const& controls) const;
-    /// `light` without its portals and `to_map`.
-    void add_environment(EnvironmentLight light, std::span<scene::PortalId const> portals,
-                         scene::LightControls const& controls, LightList& list);
-    void add_area_lights(LightList& list);
     void count();
 
     World& world_;
@@ -101,9 +68,6 @@ class WorldBuilder {
     std::map<std::pair<int32_t, bool>, int32_t> shared_; ///< mesh, smooth -> triangles
     std::map<int32_t, RTCScene> mesh_scenes_;            ///< triangles -> kernel scene
     RTCScene sphere_scene_ = nullptr, disk_scene_ = nullptr;
-    SetNames sets_;
-    std::vector<Links> shadow_links_; ///< one per bit of the ray masks
-    std::vector<std::pair<uint32_t, scene::LightId>> area_objects_; ///< object, its light
     std::shared_ptr<scene::Mesh const> rectangle_;
 };
 

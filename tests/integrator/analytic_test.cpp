@@ -180,7 +180,7 @@ TEST(Opacity, OfTenCardsLetsOneOf1024Through) {
         world::RayRecorder recorder;
         scene.world->record_rays(&recorder);
         EXPECT_FLOAT_EQ(scene.world->visibility({{0.1f, 0.2f, 0.5f}, {0, 0, 1}}).g, 1 / 1024.f);
-        integrator::PixelRenderer const renderer(*scene.world, scene.job.integrator,
+        integrator::PixelRenderer const renderer(*scene.stage, scene.job.integrator,
                                                  scene.job.sampler, 0);
         renderer.sample({1, 1}, 0);
         scene.world->record_rays(nullptr);

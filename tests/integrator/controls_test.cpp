@@ -463,9 +463,9 @@ TEST(PathRules, IndirectClampLimitsIndirectLightAlone) {
     auto const limited =
         make_scene(scene, "type=\"path\" depth=\"3\" indirectClamp=\"0.01\" rouletteDepth=\"9\"");
     auto const whole = make_scene(scene, "type=\"path\" depth=\"3\" rouletteDepth=\"9\"");
-    PixelRenderer const a(*direct.world, direct.job.integrator, direct.job.sampler, 1);
-    PixelRenderer const b(*limited.world, limited.job.integrator, limited.job.sampler, 1);
-    PixelRenderer const c(*whole.world, whole.job.integrator, whole.job.sampler, 1);
+    PixelRenderer const a(*direct.stage, direct.job.integrator, direct.job.sampler, 1);
+    PixelRenderer const b(*limited.stage, limited.job.integrator, limited.job.sampler, 1);
+    PixelRenderer const c(*whole.stage, whole.job.integrator, whole.job.sampler, 1);
     int cut = 0;
     for (int y = 0; y < 8; ++y)
         for (int x = 0; x < 8; ++x)

@@ -166,7 +166,7 @@ TEST(Environments, compensation_lowers_the_noise) {
         TestScene scene = make_scene(kCamera + kFloor + ball(bsdf) + envmap(file("sky.exr")),
                                      "type=\"path\" depth=\"2\"", folder.path());
         double const compensated = variance_of(scene, 1000);
-        scene.world = world::World::commit(scene.job.scene);
+        scene.commit();
         double const full = variance_of(scene, 1000);
         EXPECT_LT(compensated, 0.9 * full);
     }

@@ -59,7 +59,7 @@ std::string square(std::string const& bsdf, std::string const& transform) {
 
 std::vector<Color> picture(std::string const& contents, std::string const& attributes) {
     TestScene const scene = make_scene(contents, "type=\"path\" " + attributes);
-    PixelRenderer const renderer(*scene.world, scene.job.integrator, scene.job.sampler, 0);
+    PixelRenderer const renderer(*scene.stage, scene.job.integrator, scene.job.sampler, 0);
     std::vector<Color> pixels;
     for (int y = 0; y < 8; ++y)
         for (int x = 0; x < 8; ++x)

@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "lights/lat_long.h"
+#include "base/lat_long.h"
 #include "lights/sky_model.h"
 #include "lights/solar_position.h"
 

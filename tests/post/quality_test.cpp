@@ -39,11 +39,11 @@ class DenoisingQuality : public ::testing::TestWithParam<QualityCase> {
     image::Image render() const {
         std::string const path = std::string(WEFT_SOURCE_DIR) + "/scenes/" + GetParam().scene;
         scene::RenderJob const job = io::read_scene_file(path).jobs.at(0);
-        auto const world = world::World::commit(job.scene, {"", {160, 120}});
+        auto const stage = lights::Stage::commit(job.scene, {"", {160, 120}});
         session::RenderOptions options;
         options.spp = 32;
         options.aovs = {film::Aov::denoise_albedo, film::Aov::denoise_normal};
-        return session::render(*world, job, options).film.image();
+        return session::render(*stage, job, options).film.image();
     }
 };
 

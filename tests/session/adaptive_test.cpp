@@ -182,7 +182,7 @@ std::vector<Estimate> over_seeds(TestScene const& scene, RenderOptions options, 
     std::vector<std::vector<double>> all;
     for (int i = 0; i < renders; ++i) {
         ++options.seed;
-        all.push_back(block_means(render(*scene.world, scene.job, options).image, 8));
+        all.push_back(block_means(render(*scene.stage, scene.job, options).image, 8));
         double sum = 0;
         for (double m : all.back()) sum += m;
         all.back().push_back(sum / double(all.back().size()));

@@ -60,7 +60,7 @@ RenderResult render_aovs(std::string const& contents, std::vector<Aov> aovs, int
     RenderOptions options;
     options.aovs = std::move(aovs);
     options.spp = spp;
-    return render(*scene.world, scene.job, options);
+    return render(*scene.stage, scene.job, options);
 }
 
 /// Channels of a film by name.
@@ -205,16 +205,16 @@ TEST(Aovs, AreTheSameHoweverTheyAreCutUp) {
     options.aovs = all;
     options.spp = 5;
     options.threads = 1;
-    RenderResult const one = render(*scene.world, scene.job, options);
+    RenderResult const one = render(*scene.stage, scene.job, options);
     options.threads = 4;
     options.tile_size = 7;
-    EXPECT_TRUE(render(*scene.world, scene.job, options).film == one.film);
+    EXPECT_TRUE(render(*scene.stage, scene.job, options).film == one.film);
     // Tiles merge to the whole.
     film::Film merged(one.region, one.film.layout());
     for (film::Region const& part :
          {film::Region{{0, 0}, {17, 30}}, film::Region{{17, 0}, {40, 30}}}) {
         options.crop = part;
-        merged.merge(render(*scene.world, scene.job, options).film);
+        merged.merge(render(*scene.stage, scene.job, options).film);
     }
     EXPECT_TRUE(merged == one.film);
 }
@@ -237,7 +237,7 @@ TEST(Aovs, ComponentsDoNotDependOnTheStrategy) {
         double sums[2]{}, squares[2]{};
         for (int seed = 0; seed < seeds; ++seed) {
             options.seed = uint32_t(100 * estimates.size() + size_t(seed));
-            Channels const c(render(*scene.world, scene.job, options).film);
+            Channels const c(render(*scene.stage, scene.job, options).film);
             int k = 0;
             for (char const* name : {"direct_diffuse.R", "direct_specular.R"}) {
                 double mean = 0;
@@ -289,7 +289,7 @@ Estimate over_seeds(std::string const& contents, std::vector<Aov> const& aovs,
     options.spp = 16;
     std::vector<double> means;
     for (options.seed = seed; options.seed < seed + 24; ++options.seed) {
-        Channels const c(render(*scene.world, scene.job, options).film);
+        Channels const c(render(*scene.stage, scene.job, options).film);
         double sum = 0;
         for (size_t i = 0; i < c.size(); ++i) sum += double(c.at(channel, i));
         means.push_back(sum / double(c.size()));

@@ -12,12 +12,12 @@ using namespace weft::testing;
 
 std::string const kFolder = std::string(WEFT_SOURCE_DIR) + "/scenes/figures/";
 
-RenderResult render_figure(world::World const& world, scene::RenderJob const& job, int spp,
+RenderResult render_figure(lights::Stage const& stage, scene::RenderJob const& job, int spp,
                            uint32_t seed) {
     RenderOptions options;
     options.spp = spp;
     options.seed = seed;
-    return render(world, job, options);
+    return render(stage, job, options);
 }
 
 TEST(Figures, LoadAndRender) {
@@ -30,8 +30,8 @@ TEST(Figures, LoadAndRender) {
         ASSERT_EQ(file.jobs.size(), 1u);
         EXPECT_EQ(file.jobs[0].image_name, entry.path().stem());
         EXPECT_TRUE(file.warnings.empty());
-        auto const world = world::World::commit(file.jobs[0].scene, {"", {64, 36}});
-        RenderResult const result = render_figure(*world, file.jobs[0], 4, 1);
+        auto const stage = lights::Stage::commit(file.jobs[0].scene, {"", {64, 36}});
+        RenderResult const result = render_figure(*stage, file.jobs[0], 4, 1);
         EXPECT_EQ(result.bad_samples, 0u);
         double mean = 0;
         for (float value : result.image.pixels) mean += double(value);
@@ -50,10 +50,10 @@ TEST(Figures, LightAndCardAgree) {
     constexpr double kAlpha = 0.01;
     // A box: wider filters would see a little of the one half in the other.
     auto const file = io::read_scene_file(kFolder + "light_or_card.xml", {"integrator.filter=box"});
-    auto const world = world::World::commit(file.jobs[0].scene, {"", {kWidth, kHeight}});
+    auto const stage = lights::Stage::commit(file.jobs[0].scene, {"", {kWidth, kHeight}});
     std::vector<std::vector<double>> values(3 * kBlocks);
     for (uint32_t seed = 0; seed < kSeeds; ++seed) {
-        image::Image const picture = render_figure(*world, file.jobs[0], 16, seed).image;
+        image::Image const picture = render_figure(*stage, file.jobs[0], 16, seed).image;
         std::vector<double> sums(3 * kBlocks);
         for (int y = 0; y < kHeight; ++y)
             for (int x = 0; x < kWidth; ++x)

@@ -59,7 +59,7 @@ Pass render_pass(std::string const& contents, std::vector<Aov> aovs, int spp, ui
     options.aovs = std::move(aovs);
     options.spp = spp;
     options.seed = seed;
-    return {render(*scene.world, scene.job, options).film.image()};
+    return {render(*scene.stage, scene.job, options).film.image()};
 }
 
 /// Means over blocks, with the variance of the mean that independent `seeds` show.

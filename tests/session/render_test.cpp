@@ -27,7 +27,7 @@ TestScene scene_with(std::string const& sampler = "type=\"sobol\" count=\"7\"") 
 }
 
 RenderResult render_with(TestScene const& scene, RenderOptions const& options) {
-    return render(*scene.world, scene.job, options);
+    return render(*scene.stage, scene.job, options);
 }
 
 bool same_bits(std::vector<float> const& a, std::vector<float> const& b) {
@@ -142,7 +142,7 @@ TEST(Render, SamplesPerPixelAddUp) {
     // The picture of n samples is the mean of the first n: passes of 1, 1, 2, 4, ... change
     // nothing.
     TestScene const scene = scene_with();
-    integrator::PixelRenderer const renderer(*scene.world, scene.job.integrator, scene.job.sampler,
+    integrator::PixelRenderer const renderer(*scene.stage, scene.job.integrator, scene.job.sampler,
                                              0);
     for (int spp : {1, 2, 3, 9, 150}) {
         RenderOptions options;
@@ -287,7 +287,7 @@ TEST(BadSamples, AreCountedAndLocated) {
     EXPECT_EQ(one.bad_samples, many.bad_samples);
     ASSERT_EQ(one.first_bad_samples.size(), 4u);
     ASSERT_EQ(many.first_bad_samples.size(), 4u);
-    integrator::PixelRenderer const renderer(*scene.world, scene.job.integrator, scene.job.sampler,
+    integrator::PixelRenderer const renderer(*scene.stage, scene.job.integrator, scene.job.sampler,
                                              0);
     for (size_t i = 0; i < 4; ++i) {
         BadSample const &a = one.first_bad_samples[i], &b = many.first_bad_samples[i];

@@ -22,9 +22,9 @@ TEST(Replay, GivesTheSampleOfTheRender) {
     RenderOptions options;
     options.spp = 1;
     options.seed = 3;
-    image::Image const image = render(*scene.world, scene.job, options).image;
+    image::Image const image = render(*scene.stage, scene.job, options).image;
     for (Vec2i const& pixel : {Vec2i(20, 15), Vec2i(5, 28), Vec2i(0, 0)}) {
-        Replay const r = replay(*scene.world, scene.job, {pixel, 0, 3, 1});
+        Replay const r = replay(*scene.stage, scene.job, {pixel, 0, 3, 1});
         for (int c = 0; c < 3; ++c) EXPECT_EQ(r.value[c], image.at(pixel.x, pixel.y, c));
         Color sum;
         for (film::PathEvent const& e : r.events)
@@ -37,7 +37,7 @@ TEST(Replay, TellsWhatThePathMet) {
     TestScene const scene = make_scene(kContents);
     std::string all;
     for (uint32_t sample = 0; sample < 64; ++sample)
-        all += replay_text(*scene.world, replay(*scene.world, scene.job, {{20, 15}, sample, 0, 0}));
+        all += replay_text(*scene.stage, replay(*scene.stage, scene.job, {{20, 15}, sample, 0, 0}));
     for (char const* words :
          {"camera at (0, 1, -4)", "1 surface of 'ball', material 'clear'", "mirror reflection",
           "clear transmission", "surface of 'floor', material 'tiles'", "diffuse reflection",
@@ -47,9 +47,9 @@ TEST(Replay, TellsWhatThePathMet) {
 
 TEST(Replay, OfNoPixelIsAnError) {
     TestScene const scene = make_scene(kContents);
-    EXPECT_THROW(replay(*scene.world, scene.job, {{40, 0}}), InputError);
-    EXPECT_THROW(replay(*scene.world, scene.job, {{0, -1}}), InputError);
-    EXPECT_THROW(replay(*make_scene(kContents, "type=\"camera\"").world,
+    EXPECT_THROW(replay(*scene.stage, scene.job, {{40, 0}}), InputError);
+    EXPECT_THROW(replay(*scene.stage, scene.job, {{0, -1}}), InputError);
+    EXPECT_THROW(replay(*make_scene(kContents, "type=\"camera\"").stage,
                         make_scene(kContents, "type=\"camera\"").job, {{0, 0}}),
                  InputError);
 }
@@ -70,20 +70,20 @@ TEST(BadSamples, OfNegativeLightNeverEnter) {
                    "type=\"path\" depth=\"2\"", folder.path(), "type=\"sobol\" count=\"4\"");
     RenderOptions options;
     options.aovs = {film::Aov::direct_diffuse};
-    RenderResult const r = render(*scene.world, scene.job, options);
+    RenderResult const r = render(*scene.stage, scene.job, options);
     EXPECT_EQ(r.bad_samples, 16u * 8 * 4 / 2);
     ASSERT_EQ(r.first_bad_samples.size(), 4u);
     BadSample const& bad = r.first_bad_samples[0];
     EXPECT_LT(bad.value.r, -0.1f);
-    Replay const again = replay(*scene.world, scene.job, {bad.pixel, bad.sample, 0, 0});
+    Replay const again = replay(*scene.stage, scene.job, {bad.pixel, bad.sample, 0, 0});
     EXPECT_EQ(again.value, bad.value);
-    EXPECT_NE(replay_text(*scene.world, again).find("(negative)"), std::string::npos);
+    EXPECT_NE(replay_text(*scene.stage, again).find("(negative)"), std::string::npos);
     for (float v : r.film.image().pixels) ASSERT_GE(v, 0);
     // Integrators that draw directions have negative numbers that are no light.
     TestScene const normals = make_scene(
         R"(<camera type="perspective" width="8" height="8"/><instance><shape type="sphere"/><transform><translate z="3"/></transform></instance>)",
         "type=\"normal\" remap=\"false\"", "", "type=\"sobol\" count=\"1\"");
-    EXPECT_EQ(render(*normals.world, normals.job, {}).bad_samples, 0u);
+    EXPECT_EQ(render(*normals.stage, normals.job, {}).bad_samples, 0u);
 }
 
 } // namespace

@@ -44,7 +44,7 @@ TestScene scene_with_lamp(std::string const& candela) {
 RenderState part_of(TestScene const& scene, Part const& part, RenderOptions options = {}) {
     options.part = part;
     options.tile_size = 8;
-    return to_state(render(*scene.world, scene.job, options), *scene.world, scene.job, options);
+    return to_state(render(*scene.stage, scene.job, options), *scene.stage, scene.job, options);
 }
 
 std::string message(std::vector<RenderState> parts) {
@@ -133,7 +133,7 @@ TEST(Identity, KnowsWhatTexturesAreFilteredFor) {
     auto const identity = [&](char const* count, RenderOptions const& options) {
         TestScene const scene = make_scene(contents, "type=\"path\"", "",
                                            "type=\"sobol\" count=\"" + std::string(count) + "\"");
-        return identify(*scene.world, scene.job, options);
+        return identify(*scene.stage, scene.job, options);
     };
     RenderOptions options;
     options.noise = 0.1;
@@ -213,7 +213,7 @@ TEST(Parts, ThatDoNotFitAreRefusedByName) {
 TEST(Identity, SaysWhatDiffers) {
     TestScene const scene = small_scene();
     RenderOptions a;
-    auto const of = [&](RenderOptions const& o) { return identify(*scene.world, scene.job, o); };
+    auto const of = [&](RenderOptions const& o) { return identify(*scene.stage, scene.job, o); };
     EXPECT_EQ(difference(of(a), of(a)), "");
     std::vector<std::pair<RenderOptions, std::string>> const others{
         {{.spp = 13}, "samples per pixel is '12' here and '13' there"},
@@ -236,12 +236,12 @@ TEST(Identity, SaysWhatDiffers) {
 std::vector<RenderState> states_of(TestScene const& scene, RenderOptions options) {
     std::vector<RenderState> states;
     options.watchers = {{0.005, [&](RenderState const& s) { states.push_back(s); }}};
-    render(*scene.world, scene.job, options);
+    render(*scene.stage, scene.job, options);
     return states;
 }
 
 void expect_resumed_is_same(TestScene const& scene, RenderOptions options) {
-    RenderResult const whole = render(*scene.world, scene.job, options);
+    RenderResult const whole = render(*scene.stage, scene.job, options);
     std::vector<RenderState> const states = states_of(scene, options);
     ASSERT_FALSE(states.empty());
     size_t partial = 0;
@@ -249,7 +249,7 @@ void expect_resumed_is_same(TestScene const& scene, RenderOptions options) {
         RenderState const state = read_state(write_state(states[i]), "state");
         partial += !(state.film == whole.film);
         options.resume = &state;
-        RenderResult const resumed = render(*scene.world, scene.job, options);
+        RenderResult const resumed = render(*scene.stage, scene.job, options);
         EXPECT_TRUE(resumed.film == whole.film) << "state " << i << " of " << states.size();
         EXPECT_EQ(resumed.least_samples, whole.least_samples);
         EXPECT_EQ(resumed.pixel_samples, whole.pixel_samples);

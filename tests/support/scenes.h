@@ -10,8 +10,8 @@
 #include "image/write.h"
 #include "integrator/pixel_renderer.h"
 #include "io/scene_file.h"
+#include "lights/stage.h"
 #include "tests/support/statistics.h"
-#include "world/world.h"
 
 namespace weft::testing {
 
@@ -33,11 +33,17 @@ class TemporaryFolder {
     std::string path_;
 };
 
-/// A job whose scene holds `contents`, and the world made of it. Attributes of the integrator and
-/// the sampler are given as in a file.
+/// A job whose scene holds `contents`, and the stage made of it with its world. Attributes of the
+/// integrator and the sampler are given as in a file.
 struct TestScene {
     scene::RenderJob job;
-    std::unique_ptr<world::World const> world;
+    std::unique_ptr<lights::Stage const> stage;
+    world::World const* world;
+
+    void commit(bool compensate = false) {
+        stage = lights::Stage::commit(job.scene, {}, compensate);
+        world = &stage->world();
+    }
 };
 
 inline TestScene make_scene(std::string const& contents,
@@ -46,9 +52,8 @@ inline TestScene make_scene(std::string const& contents,
                             std::string const& sampler = "type=\"independent\"") {
     std::string const text = "<integrator " + integrator + "><sampler " + sampler + "/><scene>" +
                              contents + "</scene></integrator>";
-    TestScene made{io::parse_scene(text, "test", folder).jobs.at(0), nullptr};
-    made.world = world::World::commit(
-        made.job.scene, {.compensate = integrator::combines_strategies(made.job.integrator)});
+    TestScene made{io::parse_scene(text, "test", folder).jobs.at(0), nullptr, nullptr};
+    made.commit(integrator::combines_strategies(made.job.integrator));
     return made;
 }
 
@@ -56,7 +61,7 @@ inline TestScene make_scene(std::string const& contents,
 /// row by row. The variance is that of independent samples within each pixel.
 inline std::vector<Estimate> block_estimates(TestScene const& scene, int samples, int block,
                                              uint32_t seed) {
-    integrator::PixelRenderer const renderer(*scene.world, scene.job.integrator, scene.job.sampler,
+    integrator::PixelRenderer const renderer(*scene.stage, scene.job.integrator, scene.job.sampler,
                                              seed);
     Vec2i const size = scene.world->camera().size();
     int const columns = size.x / block, rows = size.y / block;

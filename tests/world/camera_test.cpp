@@ -145,7 +145,7 @@ TEST(Environment, CameraShowsTheMapAgain) {
                        "<texture type=\"image\" filename=\"map.exr\" filter=\"nearest\"/>" +
                        transform + "</light>",
                    "type=\"path\"", folder.path());
-    integrator::PixelRenderer const renderer(*scene.world, scene.job.integrator, scene.job.sampler,
+    integrator::PixelRenderer const renderer(*scene.stage, scene.job.integrator, scene.job.sampler,
                                              1);
     for (int y = 0; y < 8; ++y)
         for (int x = 0; x < 16; ++x)

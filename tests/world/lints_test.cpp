@@ -1,8 +1,8 @@
 // What the lints say, and that they are silent about what is meant.
 #include <gtest/gtest.h>
 
+#include "lights/lints.h"
 #include "tests/support/scenes.h"
-#include "world/lints.h"
 
 namespace weft::world {
 namespace {
@@ -20,7 +20,7 @@ std::string const kLamp = R"(<light type="area"><instance><shape type="disk"/>
 std::vector<std::string> warnings(std::string const& contents, std::string const& folder = "",
                                   std::string const& integrator = "type=\"path\"") {
     auto const scene = make_scene(kCamera + contents, integrator, folder);
-    return lint_warnings(*scene.world, scene.job.integrator, scene.job.where);
+    return lint_warnings(*scene.stage, scene.job.integrator, scene.job.where);
 }
 /// The only thing said holds all of `parts`.
 void expect_one(std::string const& contents, std::vector<std::string> const& parts) {

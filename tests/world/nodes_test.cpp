@@ -167,8 +167,9 @@ TEST(Nodes, SampledLightsEmitWhatRaysSee) {
         int compared = 0;
         for (int i = 0; i < 1000; ++i) {
             Vec3 const ref = (rng.next3() - Vec3(0.5f)) * 8.f;
-            LightSample s;
-            world.lights().sample({ref}, rng.next3(), [&](LightSample const& only) { s = only; });
+            lights::LightSample s;
+            scene.stage->lights().sample(world, {ref}, rng.next3(),
+                                         [&](lights::LightSample const& only) { s = only; });
             if (!(s.pdf > 0)) continue;
             Ray ray;
             ray.origin = ref, ray.direction = s.wi;

@@ -5,8 +5,8 @@
 #include "apps/weft/commands.h"
 #include "apps/weft/scene_loading.h"
 #include "apps/weft/texture_options.h"
+#include "lights/lints.h"
 #include "session/render.h"
-#include "world/lints.h"
 
 namespace weft::apps {
 
@@ -29,17 +29,18 @@ int run(InfoArguments const& args) {
     io::SceneFile const file =
         io::read_scene_file(args.scene, {}, make_texture_cache(args.textures));
     for (scene::RenderJob const& job : file.jobs) {
-        auto const world = world::World::commit(job.scene);
-        world::WorldStatistics const& s = world->statistics();
-        Vec2i const size = world->camera().size();
+        auto const stage = lights::Stage::commit(job.scene);
+        world::WorldStatistics const& s = stage->world().statistics();
+        Vec2i const size = stage->world().camera().size();
         fmt::print("{}: {} at {} x {}, {} samples per pixel\n", to_string(job.where),
                    match(job.integrator, [](auto const& i) { return i.info.type; }), size.x, size.y,
                    session::sample_count(job.sampler));
         fmt::print("  objects    {}\n  triangles  {} ({} stored)\n  lights     {}\n  textures   {} "
                    "images\n  memory     {:.1f} MB of geometry and of textures in memory\n",
-                   s.objects, s.triangles, s.unique_triangles, s.lights, job.scene->images.size(),
-                   double(s.memory_bytes) / 1e6);
-        for (std::string const& warning : world::lint_warnings(*world, job.integrator, job.where))
+                   s.objects, s.triangles, s.unique_triangles, stage->lights().size(),
+                   job.scene->images.size(),
+                   double(s.memory_bytes + stage->lights().memory_bytes()) / 1e6);
+        for (std::string const& warning : lights::lint_warnings(*stage, job.integrator, job.where))
             fmt::print("  warning: {}\n", warning);
     }
     print_textures(file.textures->statistics());

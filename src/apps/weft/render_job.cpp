@@ -10,7 +10,7 @@
 #include "apps/weft/scene_loading.h"
 #include "image/atomic_file.h"
 #include "image/write.h"
-#include "world/lints.h"
+#include "lights/lints.h"
 
 namespace weft::apps {
 
@@ -93,10 +93,10 @@ void check_checkpoint_file(RenderArguments const& a, std::vector<std::string> co
 }
 
 void write_part(std::vector<std::string> const& paths, session::RenderResult&& result,
-                world::World const& world, scene::RenderJob const& job,
+                lights::Stage const& stage, scene::RenderJob const& job,
                 session::RenderOptions const& options) {
-    std::string note = header_text(picture_header(result, job, world, options.seed));
-    session::RenderState state = session::to_state(std::move(result), world, job, options);
+    std::string note = header_text(picture_header(result, job, stage.world(), options.seed));
+    session::RenderState state = session::to_state(std::move(result), stage, job, options);
     state.note = std::move(note);
     for (std::string const& path : paths) {
         session::save_state(path, state);
@@ -107,7 +107,7 @@ void write_part(std::vector<std::string> const& paths, session::RenderResult&& r
 /// Writes what there is, says what was reached, and returns the exit code; `made` becomes the
 /// picture.
 int finish(session::RenderOptions const& options, std::vector<std::string> const& paths,
-           scene::RenderJob const& job, world::World const& world, post::DisplayChain const& chain,
+           scene::RenderJob const& job, lights::Stage const& stage, post::DisplayChain const& chain,
            ProgressLine& progress, session::RenderResult&& result, post::Picture& made) {
     report_bad_samples(result.bad_samples, result.first_bad_samples, std::to_string(options.seed));
     bool const whole = options.part.is_whole();
@@ -122,7 +122,7 @@ int finish(session::RenderOptions const& options, std::vector<std::string> const
     }
     progress.phase("write");
     if (whole) {
-        image::ExrHeader const header = picture_header(result, job, world, options.seed);
+        image::ExrHeader const header = picture_header(result, job, stage.world(), options.seed);
         write_films(paths, result.film, header, chain);
         made.metadata = plain_texts(header);
     }
@@ -130,7 +130,7 @@ int finish(session::RenderOptions const& options, std::vector<std::string> const
     progress.done(result);
     made.image = std::move(result.image);
     bool const cancelled = result.cancelled;
-    if (!whole) write_part(paths, std::move(result), world, job, options);
+    if (!whole) write_part(paths, std::move(result), stage, job, options);
     return cancelled ? kInterrupted : kDone;
 }
 
@@ -183,8 +183,8 @@ int render_job(RenderArguments const& a, scene::RenderJob const& job, bool final
     check_part(a, job);
     check_checkpoint_file(a, paths);
     progress.phase("commit");
-    auto const world = commit_world(job, a.isa, a.size);
-    for (std::string const& lint : world::lint_warnings(*world, job.integrator, job.where))
+    auto const stage = commit_stage(job, a.isa, a.size);
+    for (std::string const& lint : lights::lint_warnings(*stage, job.integrator, job.where))
         fmt::print(stderr, "warning: {}\n", lint);
 
     session::RenderOptions options = a.options;
@@ -197,7 +197,7 @@ int render_job(RenderArguments const& a, scene::RenderJob const& job, bool final
         if (!only_picture && !a.checkpoint.file.empty())
             throw InputError("--checkpoint-file expects a scene with one picture; --checkpoint "
                              "names a file for each");
-        checkpoint.emplace(a.checkpoint, main_path, session::starting_state(*world, job, options));
+        checkpoint.emplace(a.checkpoint, main_path, session::starting_state(*stage, job, options));
         options.resume = checkpoint->found();
         options.watchers.push_back(checkpoint->watcher());
     }
@@ -212,7 +212,7 @@ int render_job(RenderArguments const& a, scene::RenderJob const& job, bool final
         options.watchers.push_back(tev->watcher());
     }
     progress.phase("render");
-    session::RenderResult result = session::render(*world, job, options);
+    session::RenderResult result = session::render(*stage, job, options);
     if (result.cancelled) progress.stop();
     progress.add_profile(result.profile);
     if (tev) tev->show(result.film);
@@ -221,11 +221,11 @@ int render_job(RenderArguments const& a, scene::RenderJob const& job, bool final
         fmt::print(stderr, "warning: a texture was lost during the render: {}\n", failure);
     if (checkpoint && result.cancelled) {
         session::RenderResult copy = result;
-        checkpoint->save(session::to_state(std::move(copy), *world, job, options));
+        checkpoint->save(session::to_state(std::move(copy), *stage, job, options));
         fmt::print(stderr, "{} keeps what is done: the same command goes on from there\n",
                    checkpoint->path());
     }
-    int const code = finish(options, paths, job, *world, chain, progress, std::move(result), made);
+    int const code = finish(options, paths, job, *stage, chain, progress, std::move(result), made);
     if (checkpoint && code == kDone) checkpoint->remove();
     return code;
 }

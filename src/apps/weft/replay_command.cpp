@@ -35,10 +35,10 @@ int run(ReplayArguments& a) {
     io::SceneFile const file =
         io::read_scene_file(a.scene, a.overrides, make_texture_cache(a.textures));
     for (scene::RenderJob const& job : file.jobs) {
-        auto const world = commit_world(job, a.isa, a.size);
-        session::Replay const replay = session::replay(*world, job, a.options);
+        auto const stage = commit_stage(job, a.isa, a.size);
+        session::Replay const replay = session::replay(*stage, job, a.options);
         if (file.jobs.size() > 1) fmt::print("{}\n", job.image_name);
-        fmt::print("{}", session::replay_text(*world, replay));
+        fmt::print("{}", session::replay_text(*stage, replay));
     }
     return kDone;
 }

@@ -32,10 +32,10 @@ Vec2i parse_size(std::string const& text, scene::Scene const& scene) {
     return {w, h};
 }
 
-std::unique_ptr<world::World const> commit_world(scene::RenderJob const& job,
-                                                 std::string const& isa, std::string const& size) {
-    return world::World::commit(job.scene, {isa, parse_size(size, *job.scene),
-                                            integrator::combines_strategies(job.integrator)});
+std::unique_ptr<lights::Stage const> commit_stage(scene::RenderJob const& job,
+                                                  std::string const& isa, std::string const& size) {
+    return lights::Stage::commit(job.scene, {isa, parse_size(size, *job.scene)},
+                                 integrator::combines_strategies(job.integrator));
 }
 
 } // namespace weft::apps

@@ -47,8 +47,8 @@ void judge(std::string const& folder, std::string const& name, image::Image cons
 void run_test(scene::RenderJob const& job, session::RenderOptions const& options, Tally& tally) {
     image::check_writable(path_of(job.folder, job.image_name, "_test.exr"));
     image::read_image(path_of(job.folder, job.image_name, "_ref.exr"));
-    auto const world = commit_world(job);
-    session::RenderResult const result = session::render(*world, job, options);
+    auto const stage = commit_stage(job);
+    session::RenderResult const result = session::render(*stage, job, options);
     judge(job.folder, job.image_name, result.image, *job.test, result.seconds, tally);
 }
 
@@ -66,8 +66,8 @@ void run_postprocess_tests(io::SceneFile const& file, session::RenderOptions con
     for (size_t i = 0; i < file.jobs.size(); ++i) {
         scene::RenderJob const& job = file.jobs[i];
         if (!job.test) {
-            auto const world = commit_world(job);
-            session::RenderResult result = session::render(*world, job, options);
+            auto const stage = commit_stage(job);
+            session::RenderResult result = session::render(*stage, job, options);
             seconds += result.seconds;
             pictures[job.target.image.index].image = std::move(result.image);
         }

@@ -1,13 +1,13 @@
-#include "world/light_rules.h"
+#include "lights/light_rules.h"
 
-namespace weft::world {
+namespace weft::lights {
 
 bool is_sampled_alone(scene::LightControls const& c) {
     return !c.visible_to_secondary || !c.cast_shadows || !c.shadowed_by.empty();
 }
 
-LightRules::LightRules(scene::LightControls const& c, lights::LightBounds const& bounds,
-                       float power, float cross_section)
+LightRules::LightRules(scene::LightControls const& c, LightBounds const& bounds, float power,
+                       float cross_section)
     : by_kind(c.diffuse != c.specular || c.diffuse != c.transmission || c.diffuse != c.volume ||
               c.diffuse != c.subsurface),
       sampling_alone(is_sampled_alone(c)),
@@ -28,16 +28,16 @@ LightRules::LightRules(scene::LightControls const& c, lights::LightBounds const&
         intensity_ = power / cross_section;
     } else {
         if (c.max_distance > 0) max_distance_ = c.max_distance;
-        intensity_ = power / lights::orientation_measure(bounds);
+        intensity_ = power / orientation_measure(bounds);
         centre_ = bounds.centre();
         radius_squared_ = 0.25f * bounds.diagonal_squared();
     }
 }
 
-void LightRules::hide_from(RayKind kind) {
+void LightRules::hide_from(world::RayKind kind) {
     in_use = true;
-    by_kind |= kind != RayKind::camera;
+    by_kind |= kind != world::RayKind::camera;
     by_ray_kind_[size_t(kind)] = 0;
 }
 
-} // namespace weft::world
+} // namespace weft::lights

@@ -9,48 +9,38 @@
 #include "lights/light_bounds.h"
 #include "scene/light_controls.h"
 #include "world/ray_kind.h"
+#include "world/set_names.h"
 
-namespace weft::world {
-
-/// Of named sets, as bits: those that are meant and those that are excepted.
-struct Links {
-    uint64_t include = 0, exclude = 0; ///< include 0: all
-
-    friend bool operator==(Links const&, Links const&) = default;
-    explicit operator bool() const { return (include | exclude) != 0; }
-    bool accept(uint64_t sets) const {
-        return (include == 0 || (include & sets) != 0) && (exclude & sets) == 0;
-    }
-};
+namespace weft::lights {
 
 /// Light on its way to where it is scattered, or seen.
 struct Arrival {
-    Vec3 p{0, 0, 0};                ///< the place
-    uint64_t sets = 0;              ///< that the object there belongs to
-    uint32_t bounces = 0;           ///< from the camera on, this place included; 0: seen itself
-    RayKind kind = RayKind::camera; ///< how the place scatters it
-    float distance = 0;             ///< from the light
+    Vec3 p{0, 0, 0};      ///< the place
+    uint64_t sets = 0;    ///< that the object there belongs to
+    uint32_t bounces = 0; ///< from the camera on, this place included; 0: seen itself
+    world::RayKind kind = world::RayKind::camera; ///< how the place scatters it
+    float distance = 0;                           ///< from the light
 };
 
 /// Whether light sampling has to find all of the light, even where strategies are combined.
 bool is_sampled_alone(scene::LightControls const& controls);
 
 struct LightRules {
-    bool in_use = false;               ///< else every factor is 1
-    bool by_kind = false;              ///< factors differ between kinds of scattering
-    bool sampling_alone = false;       ///< rays that scattered smoothly do not count it
-    bool shown = true;                 ///< mirrors and clear glass show it
-    RayMask shadow_mask = kShadowMask; ///< of what blocks it; 0: nothing does
-    Links lit;
+    bool in_use = false;         ///< else every factor is 1
+    bool by_kind = false;        ///< factors differ between kinds of scattering
+    bool sampling_alone = false; ///< rays that scattered smoothly do not count it
+    bool shown = true;           ///< mirrors and clear glass show it
+    world::RayMask shadow_mask = world::kShadowMask; ///< of what blocks it; 0: nothing does
+    world::Links lit;
 
     LightRules() = default;
     /// `power`: luminance of all that it emits; `at_infinity`: times the scene's cross-section.
-    LightRules(scene::LightControls const& controls, lights::LightBounds const& bounds, float power,
+    LightRules(scene::LightControls const& controls, LightBounds const& bounds, float power,
                float cross_section);
 
     /// What part of the light counts.
     float factor(Arrival const& to) const {
-        if (to.bounces == 0) return by_ray_kind_[size_t(RayKind::camera)];
+        if (to.bounces == 0) return by_ray_kind_[size_t(world::RayKind::camera)];
         bool const indirect = to.bounces > 1;
         if (to.bounces > most_bounces_ || !lit.accept(to.sets)) return 0;
         if (to.distance > max_distance_) return 0;
@@ -58,7 +48,7 @@ struct LightRules {
         return (indirect ? indirect_ : direct_) * by_ray_kind_[size_t(to.kind)];
     }
     /// Objects tell their lights which rays do not meet them.
-    void hide_from(RayKind kind);
+    void hide_from(world::RayKind kind);
 
   private:
     /// On a facing surface, roughly.
@@ -67,7 +57,7 @@ struct LightRules {
                             : intensity_ / std::max(length_squared(p - centre_), radius_squared_);
     }
 
-    std::array<float, kRayKinds> by_ray_kind_{1, 1, 1, 1, 1, 1};
+    std::array<float, world::kRayKinds> by_ray_kind_{1, 1, 1, 1, 1, 1};
     float direct_ = 1, indirect_ = 1;
     uint32_t most_bounces_ = UINT32_MAX;
     float max_distance_ = kInfinity, min_contribution_ = 0;
@@ -76,4 +66,4 @@ struct LightRules {
     bool at_infinity_ = false;
 };
 
-} // namespace weft::world
+} // namespace weft::lights

@@ -6,9 +6,9 @@
 
 #include "base/hash.h"
 #include "base/warp.h"
-#include "world/lints.h"
+#include "lights/lints.h"
 
-namespace weft::world {
+namespace weft::lights {
 
 namespace {
 
@@ -23,17 +23,13 @@ std::string type_of(scene::Light const& light) {
 
 class LightLints {
   public:
-    explicit LightLints(World const& world) : world_(world), scene_(world.scene()) {
-        RTCBounds box;
-        rtcGetSceneBounds(world.embree_scene(), &box);
-        Vec3 const extent(box.upper_x - box.lower_x, box.upper_y - box.lower_y,
-                          box.upper_z - box.lower_z);
-        if (is_finite(extent) && extent.x >= 0) radius_ = 0.5 * double(length(extent));
-    }
+    explicit LightLints(Stage const& stage)
+        : world_(stage.world()), lights_(stage.lights()), scene_(world_.scene()),
+          radius_(double(world_.radius())) {}
 
     std::vector<std::string> all() {
-        for (size_t i = 0; i < world_.lights().size(); ++i) {
-            Light const& light = world_.lights()[int32_t(i)];
+        for (size_t i = 0; i < lights_.size(); ++i) {
+            Light const& light = lights_[int32_t(i)];
             if (light.controls.weight == 0) continue; // on purpose
             look_at_power(light);
             look_around(light);
@@ -65,13 +61,14 @@ class LightLints {
         if (said_.insert(text).second) warnings_.push_back(std::move(text));
     }
 
-    bool lets_light_through(Ray const& ray, Hit const& hit) const;
+    bool lets_light_through(world::Ray const& ray, world::Hit const& hit) const;
     uint32_t enclosure_of(Vec3 const& p, int32_t own) const;
     bool separates(uint32_t object, Vec3 const& a, Vec3 const& b) const;
 
-    World const& world_;
+    world::World const& world_;
+    LightTable const& lights_;
     scene::Scene const& scene_;
-    double radius_ = 1; ///< of the scene, in its units; 1 where nothing is there
+    double radius_; ///< of the scene, in its units; 1 where nothing is there
     std::vector<std::string> warnings_;
     std::set<std::string> said_;
 };
@@ -83,8 +80,8 @@ void LightLints::look_at_power(Light const& light) {
         return;
     }
     bool const infinite = std::holds_alternative<EnvironmentLight>(light.kind) ||
-                          std::holds_alternative<lights::DirectionalLight>(light.kind) ||
-                          std::holds_alternative<lights::SunDisk>(light.kind);
+                          std::holds_alternative<DirectionalLight>(light.kind) ||
+                          std::holds_alternative<SunDisk>(light.kind);
     double const section = kPi * std::max(radius_ * radius_, 1e-12);
     double const irradiance = double(light.power) / (infinite ? section : 4 * section);
     if (irradiance < kManySuns * kSun) return;
@@ -103,8 +100,8 @@ void LightLints::count_triangles(AreaLight const& light) {
 }
 
 /// Whether some light passes the surface that was hit.
-bool LightLints::lets_light_through(Ray const& ray, Hit const& hit) const {
-    Object const& o = world_.object(hit.object);
+bool LightLints::lets_light_through(world::Ray const& ray, world::Hit const& hit) const {
+    world::Object const& o = world_.object(hit.object);
     if (o.has_alpha || o.is_see_through || o.is_null || o.has_interior) return true;
     auto const point = world_.surface(ray, hit);
     auto const shading = world_.shade(point, -ray.direction, world_.outside());
@@ -118,10 +115,10 @@ uint32_t LightLints::enclosure_of(Vec3 const& p, int32_t own) const {
     uint32_t found = UINT32_MAX;
     Rng rng(1);
     for (int i = 0; i < directions; ++i) {
-        Ray ray;
+        world::Ray ray;
         ray.origin = p;
         ray.direction = square_to_sphere({(float(i) + rng.next()) / float(directions), rng.next()});
-        Hit hit = world_.intersect_solid(ray);
+        world::Hit hit = world_.intersect_solid(ray);
         for (int k = 0; k < 8 && hit && int32_t(hit.object) == own; ++k) {
             ray.origin = shading::offset_origin(world_.surface(ray, hit), ray.direction);
             hit = world_.intersect_solid(ray);
@@ -136,13 +133,13 @@ uint32_t LightLints::enclosure_of(Vec3 const& p, int32_t own) const {
 
 /// Whether a straight line from `a` to `b` crosses `object` an odd number of times.
 bool LightLints::separates(uint32_t object, Vec3 const& a, Vec3 const& b) const {
-    Ray ray;
+    world::Ray ray;
     ray.origin = a;
     ray.direction = normalize(b - a);
     ray.t_max = length(b - a);
     bool odd = false;
     for (int k = 0; k < 1000; ++k) {
-        Hit const hit = world_.intersect_solid(ray);
+        world::Hit const hit = world_.intersect_solid(ray);
         if (!hit) break;
         odd ^= hit.object == object;
         Vec3 const origin = shading::offset_origin(world_.surface(ray, hit), ray.direction);
@@ -192,25 +189,25 @@ void LightLints::look_around(Light const& light) {
 
 /// Lights without size are points in a mirror, which no ray meets, and cast no light through glass.
 void LightLints::look_at_mirrors() {
-    size_t point_light = world_.lights().size();
-    for (size_t i = world_.lights().size(); i-- > 0;)
+    size_t point_light = lights_.size();
+    for (size_t i = lights_.size(); i-- > 0;)
         std::visit(Overloaded{
                        [&](Lamp const& l) {
                            if (!l.luminaire.ball) point_light = i;
                        },
-                       [&](lights::DirectionalLight const&) { point_light = i; },
+                       [&](DirectionalLight const&) { point_light = i; },
                        [](auto const&) {},
                    },
-                   world_.lights()[int32_t(i)].kind);
-    if (point_light == world_.lights().size()) return;
+                   lights_[int32_t(i)].kind);
+    if (point_light == lights_.size()) return;
     constexpr int side = 48, picks = 8;
     std::map<uint32_t, int> seen; // object -> rays that meet it as a mirror
     Vec2i const size = world_.camera().size();
     for (int i = 0; i < side * side; ++i) {
         Vec2 const raster((float(i % side) + 0.5f) / side * float(size.x),
                           (float(i / side) + 0.5f) / side * float(size.y));
-        Ray const ray = world_.camera().ray(raster, Vec2(0.5f), 0.5f);
-        Hit const hit = world_.intersect(ray, uint32_t(i));
+        world::Ray const ray = world_.camera().ray(raster, Vec2(0.5f), 0.5f);
+        world::Hit const hit = world_.intersect(ray, uint32_t(i));
         if (!hit || world_.object(hit.object).is_null) continue;
         auto const shading =
             world_.shade(world_.surface(ray, hit), -ray.direction, world_.outside());
@@ -228,11 +225,11 @@ void LightLints::look_at_mirrors() {
     if (most == seen.end() || most->second * 200 < side * side) return; // half a percent
     warn(fmt::format("{} has no size, so the mirrors and clear glass of the picture (such as {}) "
                      "neither show it nor pass its light on: use an area light, or some roughness",
-                     name_of(world_.lights()[int32_t(point_light)]), name_of(most->first)));
+                     name_of(lights_[int32_t(point_light)]), name_of(most->first)));
 }
 
 } // namespace
 
-std::vector<std::string> light_warnings(World const& world) { return LightLints(world).all(); }
+std::vector<std::string> light_warnings(Stage const& stage) { return LightLints(stage).all(); }
 
-} // namespace weft::world
+} // namespace weft::lights

@@ -4,7 +4,7 @@
 
 #include "tests/support/scenes.h"
 
-namespace weft::world {
+namespace weft::lights {
 namespace {
 
 using namespace weft::testing;
@@ -21,7 +21,7 @@ int lit_samples(TestScene const& scene, Vec3 const& ref) {
     int lit = 0;
     for (int i = 0; i < 1000; ++i) {
         float const u = rng.next(), v = rng.next(), w = rng.next();
-        scene.world->lights().sample({ref}, {u, v, w}, [&](LightSample const& s) {
+        scene.stage->lights().sample(*scene.world, {ref}, {u, v, w}, [&](LightSample const& s) {
             EXPECT_TRUE(std::isfinite(s.pdf) && is_finite(s.radiance)) << s.pdf;
             lit += !is_black(s.radiance);
         });
@@ -41,8 +41,8 @@ TEST(ExtremeLights, APowerBeyondFloatsLeavesTheOthersTheirSamples) {
     auto const scene = scene_with(R"(<light type="point" position="0,4,0" intensity="1e38"/>
         <light type="point" position="0,-4,0" intensity="10"/>)");
     EXPECT_EQ(lit_samples(scene, Vec3(0, 3, 0)), 1000);
-    EXPECT_TRUE(std::isfinite(scene.world->lights()[0].power));
+    EXPECT_TRUE(std::isfinite(scene.stage->lights()[0].power));
 }
 
 } // namespace
-} // namespace weft::world
+} // namespace weft::lights

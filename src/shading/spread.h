@@ -9,7 +9,7 @@
 
 #include "base/vec.h"
 
-namespace weft::lights {
+namespace weft::shading {
 
 class Spread {
   public:
@@ -40,4 +40,4 @@ class Spread {
     float half_angle_ = kPi / 2, tangent_ = kInfinity, gain_ = 1;
 };
 
-} // namespace weft::lights
+} // namespace weft::shading

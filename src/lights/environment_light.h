@@ -13,7 +13,7 @@
 #include "scene/scene.h"
 #include "shading/textures.h"
 
-namespace weft::world {
+namespace weft::lights {
 
 struct EnvironmentLight {
     struct Sample {
@@ -22,12 +22,12 @@ struct EnvironmentLight {
         float pdf = 0; ///< per solid angle
     };
 
-    std::variant<scene::Input<Color>, lights::SkyTable> map;
+    std::variant<scene::Input<Color>, SkyTable> map;
     /// Between directions, linear, of determinant 1 or -1: most often rotations. A solid angle in
     /// the map is one in the world times 1 / |to_map(d)|^3, d a unit direction in the world.
     Affine to_world, to_map;
-    lights::EnvironmentSampler sampler;
-    lights::PortalSampler portals;
+    EnvironmentSampler sampler;
+    PortalSampler portals;
     float whole = 0; ///< the part of samples that is not sent through portals where they are seen
     Color tint{1};   ///< a factor on an input
 
@@ -44,4 +44,4 @@ struct EnvironmentLight {
     Sample sample_whole(shading::Textures const& textures, Vec2 u) const;
 };
 
-} // namespace weft::world
+} // namespace weft::lights

@@ -1,8 +1,8 @@
-#include "world/environment_light.h"
+#include "lights/environment_light.h"
 
 #include "base/match.h"
 
-namespace weft::world {
+namespace weft::lights {
 
 namespace {
 
@@ -15,12 +15,12 @@ Color EnvironmentLight::radiance(shading::Textures const& textures, Vec2 uv) con
                           [&](scene::Input<Color> const& input) {
                               return textures.radiance(input, uv) * tint;
                           },
-                          [&](lights::SkyTable const& sky) { return sky.at(uv); },
+                          [&](SkyTable const& sky) { return sky.at(uv); },
                       });
 }
 
 Color EnvironmentLight::radiance(shading::Textures const& textures, Vec3 const& d) const {
-    return radiance(textures, lights::direction_to_uv(to_map.vector(d)));
+    return radiance(textures, direction_to_uv(to_map.vector(d)));
 }
 
 EnvironmentLight::Sample EnvironmentLight::sample_whole(shading::Textures const& textures,
@@ -55,7 +55,7 @@ EnvironmentLight::Sample EnvironmentLight::found(shading::Textures const& textur
     Vec3 const m = to_map.vector(d);
     float const shrink = 1 / length(m);
     Vec3 const local = m * shrink;
-    Sample s{d, radiance(textures, lights::direction_to_uv(local)), 0};
+    Sample s{d, radiance(textures, direction_to_uv(local)), 0};
     double const light = portals.light_at(ref);
     float const part = light > 0 ? whole : 1;
     if (part > 0) s.pdf = part * sampler.pdf(local) * cubed(shrink);
@@ -63,4 +63,4 @@ EnvironmentLight::Sample EnvironmentLight::found(shading::Textures const& textur
     return s;
 }
 
-} // namespace weft::world
+} // namespace weft::lights

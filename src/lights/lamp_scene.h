@@ -9,7 +9,7 @@
 #include "world/embree.h"
 #include "world/ray.h"
 
-namespace weft::world {
+namespace weft::lights {
 
 class LampScene {
   public:
@@ -33,7 +33,7 @@ class LampScene {
     /// Calls f(Meeting) for every ball that the ray meets before its t_max, in an order that
     /// depends on the ray alone. `from`: where on the ray's line light sampling started.
     template <class F>
-    void each(Ray const& ray, Vec3 const& from, F&& f) const {
+    void each(world::Ray const& ray, Vec3 const& from, F&& f) const {
         using Function = std::remove_reference_t<F>;
         visit(ray, from, &f, [](void* function, Meeting const& meeting) {
             (*static_cast<Function*>(function))(meeting);
@@ -44,7 +44,7 @@ class LampScene {
     using Call = void (*)(void*, Meeting const&);
     struct Query;
 
-    void visit(Ray const& ray, Vec3 const& from, void* function, Call call) const;
+    void visit(world::Ray const& ray, Vec3 const& from, void* function, Call call) const;
     static void bounds(RTCBoundsFunctionArguments const* args);
     static void intersect(RTCIntersectFunctionNArguments const* args);
 
@@ -52,4 +52,4 @@ class LampScene {
     RTCScene scene_ = nullptr;
 };
 
-} // namespace weft::world
+} // namespace weft::lights

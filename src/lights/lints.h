@@ -8,17 +8,17 @@
 #include <string>
 #include <vector>
 
-#include "world/world.h"
+#include "lights/stage.h"
 
-namespace weft::world {
+namespace weft::lights {
 
 /// "file:line:column: what, and what to do about it". Of lights nothing is said to an integrator
 /// that draws none (`normal`, `aov`, ...).
 /// `where`: the place of the integrator.
-std::vector<std::string> lint_warnings(World const& world, scene::Integrator const& integrator,
+std::vector<std::string> lint_warnings(Stage const& stage, scene::Integrator const& integrator,
                                        SourceLocation const& where);
 
 /// The part of it that is about lights.
-std::vector<std::string> light_warnings(World const& world);
+std::vector<std::string> light_warnings(Stage const& stage);
 
-} // namespace weft::world
+} // namespace weft::lights

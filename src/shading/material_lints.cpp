@@ -1,10 +1,10 @@
-#include "world/lints.h"
+#include "shading/material_lints.h"
 
 #include <fmt/format.h>
 
 #include "lobes/dielectric_boundary.h"
 
-namespace weft::world {
+namespace weft::shading {
 
 namespace {
 
@@ -38,31 +38,13 @@ struct MaterialLint {
 
 } // namespace
 
-std::vector<std::string> lint_warnings(World const& world, scene::Integrator const& integrator,
-                                       SourceLocation const& where) {
+std::vector<std::string> material_warnings(scene::Scene const& scene) {
     std::vector<std::string> warnings;
-    scene::Scene const& scene = world.scene();
-    bool emits = world.statistics().lights > 0;
-    for (uint32_t i = 0; i < world.statistics().objects; ++i) {
-        Object const& o = world.object(i);
-        std::string const at = to_string(location_of(scene, scene::InstanceId{o.source_instance}));
-        emits |= bool(o.emission);
-        if (o.emission && o.light < 0)
-            warnings.push_back(at + ": emits light but is no <light type=\"area\">: only rays "
-                                    "that hit it by chance find it, which is noisy");
-        if (!o.material && !o.emission && !o.is_null && emits)
-            warnings.push_back(at + ": has no <bsdf> and will be black");
-    }
     for (size_t i = 0; i < scene.materials.size(); ++i)
         if (std::string const lint = match(scene.materials[i], MaterialLint{scene}); !lint.empty())
             warnings.push_back(to_string(location_of(scene, scene::MaterialId{int32_t(i)})) + ": " +
                                lint);
-    if (!scene::outputs_of(integrator)) return warnings;
-    if (!emits)
-        warnings.push_back(to_string(where) +
-                           ": the scene has no light: the picture will be black; add a <light>");
-    for (std::string& warning : light_warnings(world)) warnings.push_back(std::move(warning));
     return warnings;
 }
 
-} // namespace weft::world
+} // namespace weft::shading

@@ -1,27 +1,27 @@
-// The part of WorldBuilder that makes lights of emissive objects, and looks at what they emit: how
+// The part of LightBuilder that makes lights of emissive objects, and looks at what they emit: how
 // much in all, and where.
 #include "base/warp.h"
-#include "world/world_builder.h"
+#include "lights/light_builder.h"
 
-namespace weft::world {
+namespace weft::lights {
 
 namespace {
 
 /// Whether the triangle is wound clockwise about its vertex normals, which say where the front is.
-bool is_wound_inwards(TriangleData const& data, scene::Mesh::Triangle const& t) {
+bool is_wound_inwards(world::TriangleData const& data, scene::Mesh::Triangle const& t) {
     auto const& [a, b, c] = t.v;
     if (!data.smooth) return false;
-    Vertex const &va = data.vertices[a], &vb = data.vertices[b], &vc = data.vertices[c];
+    world::Vertex const &va = data.vertices[a], &vb = data.vertices[b], &vc = data.vertices[c];
     Vec3 const normal = cross(vb.p - va.p, vc.p - va.p);
     return (dot(normal, va.n + vb.n + vc.n) < 0) != data.mirrored;
 }
 
-lights::MeshEmitter make_mesh_emitter(Object const& object, TriangleData const& data) {
+MeshEmitter make_mesh_emitter(world::Object const& object, world::TriangleData const& data) {
     std::vector<Vec3> positions;
     positions.reserve(data.vertices.size());
-    for (Vertex const& v : data.vertices)
+    for (world::Vertex const& v : data.vertices)
         positions.push_back(object.instanced ? object.to_world.point(v.p) : v.p);
-    std::vector<lights::MeshEmitter::Triangle> triangles;
+    std::vector<MeshEmitter::Triangle> triangles;
     triangles.reserve(data.source->triangles.size());
     std::vector<bool> turned;
     for (auto const& t : data.source->triangles) {
@@ -35,7 +35,7 @@ lights::MeshEmitter make_mesh_emitter(Object const& object, TriangleData const& 
 /// Looks at what the surface of a light emits, once all that makes lights is committed.
 class Surveyor {
   public:
-    Surveyor(World const& world, AreaLight& light) : world_(world), light_(light) {}
+    Surveyor(world::World const& world, AreaLight& light) : world_(world), light_(light) {}
 
     /// Fills `flux`, one value per primitive, and the light's texture where it is worth it.
     void survey() {
@@ -64,17 +64,17 @@ class Surveyor {
         return luminance_at(point);
     }
 
-    void look(lights::MeshEmitter const& mesh);
+    void look(MeshEmitter const& mesh);
     template <class E>
     void look(E const& emitter);
 
-    World const& world_;
+    world::World const& world_;
     AreaLight& light_;
     std::vector<float> flux_;
 };
 
 /// No triangle that may shine is left without power by the few points that are looked at.
-void Surveyor::look(lights::MeshEmitter const& mesh) {
+void Surveyor::look(MeshEmitter const& mesh) {
     uint32_t const count = mesh.primitives();
     bool const constant = is_constant();
     constexpr uint32_t all_points = 4'000'000;
@@ -144,34 +144,34 @@ void Surveyor::look(E const& emitter) {
 
 } // namespace
 
-AreaLight WorldBuilder::make_area_light(uint32_t index, scene::AreaLight const& from) const {
-    Object const& object = world_.objects_[index];
-    lights::Spread const spread(from.spread);
-    auto make = [&]() -> lights::Emitter {
-        if (object.kind == ObjectKind::Sphere) return lights::SphereEmitter(object.to_world);
-        if (object.kind == ObjectKind::Disk) return lights::DiskEmitter(object.to_world);
-        if (object.is_rectangle) return lights::RectangleEmitter(object.to_world, spread.tangent());
-        return make_mesh_emitter(object, world_.triangles_[size_t(object.triangles)]);
+AreaLight LightBuilder::make_area_light(uint32_t index) const {
+    world::Object const& object = world_.object(index);
+    auto make = [&]() -> Emitter {
+        if (object.kind == world::ObjectKind::Sphere) return SphereEmitter(object.to_world);
+        if (object.kind == world::ObjectKind::Disk) return DiskEmitter(object.to_world);
+        if (object.is_rectangle) return RectangleEmitter(object.to_world, object.spread.tangent());
+        return make_mesh_emitter(object, world_.triangles(object));
     };
-    bool const uv_alone =
-        within(world_.textures_.needs(object.emission) | world_.textures_.needs(object.opacity),
-               shading::Needs::uv);
-    AreaLight light{make(), object.emission, object.opacity, spread, {}, 0, index, uv_alone};
+    shading::Textures const& textures = world_.textures();
+    bool const uv_alone = within(textures.needs(object.emission) | textures.needs(object.opacity),
+                                 shading::Needs::uv);
+    AreaLight light{make(), object.emission, object.opacity, object.spread, {}, 0, index, uv_alone};
     light.extent = std::sqrt(match(light.emitter, [](auto const& e) { return e.area(); }));
     return light;
 }
 
-void WorldBuilder::add_area_lights(LightList& list) {
-    for (size_t begin = 0, end; begin < area_objects_.size(); begin = end) {
+void LightBuilder::add_area_lights() {
+    std::span<world::AreaObject const> const objects = world_.area_objects();
+    for (size_t begin = 0, end; begin < objects.size(); begin = end) {
         // All objects of one light of the scene share its power.
-        scene::LightId const id = area_objects_[begin].second;
-        list.source = id.index;
+        scene::LightId const id = objects[begin].light;
+        list_.source = id.index;
         auto const& from = std::get<scene::AreaLight>(scene_.lights[size_t(id.index)]);
         std::vector<AreaLight> made;
         std::vector<std::vector<float>> flux;
         double sum = 0;
-        for (end = begin; end < area_objects_.size() && area_objects_[end].second == id; ++end) {
-            made.push_back(make_area_light(area_objects_[end].first, from));
+        for (end = begin; end < objects.size() && objects[end].light == id; ++end) {
+            made.push_back(make_area_light(objects[end].object));
             Surveyor surveyor(world_, made.back());
             surveyor.survey();
             flux.push_back(surveyor.flux());
@@ -182,23 +182,20 @@ void WorldBuilder::add_area_lights(LightList& list) {
                                 : from.power;
         float const scale = power > 0 && sum > 0 ? float(double(power) / sum) : 1;
         for (size_t i = 0; i < made.size(); ++i) {
-            Object& object = world_.objects_[made[i].object];
-            object.light = int32_t(list.lights.size());
-            object.spread = made[i].spread;
+            world_.scale_emission(made[i].object, scale);
             made[i].emission.tint *= scale;
-            object.emission.tint = made[i].emission.tint;
-            std::vector<lights::LightBounds> leaves;
+            std::vector<LightBounds> leaves;
             match(made[i].emitter, [&](auto const& e) {
                 for (uint32_t k = 0; k < e.primitives(); ++k) {
-                    leaves.push_back(lights::bounds_of(e, k));
-                    lights::LightBounds& leaf = leaves.back();
+                    leaves.push_back(bounds_of(e, k));
+                    LightBounds& leaf = leaves.back();
                     leaf.theta_e = std::min(leaf.theta_e, made[i].spread.half_angle());
                     leaf.power = scale * flux[i][k];
                 }
             });
-            list.add(std::move(made[i]), leaves, from.controls);
+            list_.add(std::move(made[i]), leaves, from.controls);
         }
     }
 }
 
-} // namespace weft::world
+} // namespace weft::lights

@@ -1,11 +1,8 @@
-// The part of WorldBuilder that says which rays meet which objects, and what lights light.
+// The part of WorldBuilder that says which rays meet which objects.
 #include "world/world_builder.h"
 
 namespace weft::world {
 
-namespace {
-
-/// Whether rays of a kind meet an object.
 bool is_visible(scene::RayVisibility const& v, RayKind kind) {
     switch (kind) {
     case RayKind::camera:
@@ -23,15 +20,9 @@ bool is_visible(scene::RayVisibility const& v, RayKind kind) {
     return true;
 }
 
-constexpr std::array<RayKind, kRayKinds> kAllKinds{RayKind::camera, RayKind::diffuse,
-                                                   RayKind::glossy, RayKind::transmission,
-                                                   RayKind::volume, RayKind::subsurface};
-
-} // namespace
-
-RayMask WorldBuilder::shadow_mask(Links const& links) const {
+RayMask World::shadow_mask(Links const& blockers) const {
     for (size_t i = 0; i < shadow_links_.size(); ++i)
-        if (shadow_links_[i] == links) return 1u << (kFirstLinkBit + i);
+        if (shadow_links_[i] == blockers) return 1u << (kFirstLinkBit + i);
     return kShadowMask;
 }
 
@@ -41,22 +32,22 @@ void WorldBuilder::mask_objects() {
         scene::LightControls const& c =
             match(scene_.lights[size_t(id.index)],
                   [](auto const& l) -> scene::LightControls const& { return l.controls; });
-        Links const links = sets_.find(c.shadowed_by, "shadowedBy", where);
-        if (!links || shadow_mask(links) != kShadowMask) continue;
-        if (shadow_links_.size() == kLinkBits)
+        Links const links = world_.sets_.find(c.shadowed_by, "shadowedBy", where);
+        if (!links || world_.shadow_mask(links) != kShadowMask) continue;
+        if (world_.shadow_links_.size() == kLinkBits)
             throw InputError(where, "expected at most " + std::to_string(kLinkBits) +
                                         " different lists in 'shadowedBy', found another: '" +
                                         c.shadowed_by + "'");
-        shadow_links_.push_back(links);
+        world_.shadow_links_.push_back(links);
     }
     for (Object& o : world_.objects_) {
         o.ray_mask = kUnruledMask;
-        for (RayKind kind : kAllKinds)
+        for (RayKind kind : kAllRayKinds)
             if (is_visible(o.visibility, kind)) o.ray_mask |= mask_of(kind);
         if (o.visibility.shadow) o.ray_mask |= kShadowMask;
         if (o.visibility.shadow && o.shadow_catcher) o.ray_mask |= kCatcherMask;
-        for (size_t i = 0; i < shadow_links_.size(); ++i)
-            if (o.visibility.shadow && shadow_links_[i].accept(o.sets))
+        for (size_t i = 0; i < world_.shadow_links_.size(); ++i)
+            if (o.visibility.shadow && world_.shadow_links_[i].accept(o.sets))
                 o.ray_mask |= 1u << (kFirstLinkBit + i);
         world_.has_controls_ |= o.holdout || o.shadow_catcher;
         world_.has_controls_ |= o.visibility != scene::RayVisibility{} || o.trace_distance > 0;
@@ -65,29 +56,12 @@ void WorldBuilder::mask_objects() {
             v.diffuse != v.glossy || v.diffuse != v.transmission || v.diffuse != v.volume;
     }
     // A light that is not to be seen is an object that rays do not meet.
-    for (auto const& [object, id] : area_objects_) {
+    for (auto const& [object, id] : world_.area_objects_) {
         auto const& controls = std::get<scene::AreaLight>(scene_.lights[size_t(id.index)]).controls;
-        for (RayKind kind : kAllKinds)
+        for (RayKind kind : kAllRayKinds)
             if (!(kind == RayKind::camera ? controls.visible_to_camera
                                           : controls.visible_to_secondary))
                 world_.objects_[object].ray_mask &= ~mask_of(kind);
-    }
-}
-
-void WorldBuilder::link_lights(LightList& list) {
-    for (size_t i = 0; i < list.lights.size(); ++i) {
-        Light& light = list.lights[i];
-        LightRules& rules = light.rules;
-        SourceLocation const where = location_of(scene_, scene::LightId{light.source});
-        rules.lit = sets_.find(light.controls.illuminates, "illuminates", where);
-        if (Links const by = sets_.find(light.controls.shadowed_by, "shadowedBy", where))
-            if (rules.shadow_mask != 0) rules.shadow_mask = shadow_mask(by);
-        if (auto const* area = std::get_if<AreaLight>(&light.kind))
-            for (RayKind kind : kAllKinds)
-                if (!is_visible(world_.objects_[area->object].visibility, kind))
-                    rules.hide_from(kind);
-        world_.has_controls_ |= rules.in_use;
-        world_.has_controls_by_kind_ |= rules.by_kind;
     }
 }
 

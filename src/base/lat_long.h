@@ -10,7 +10,7 @@
 
 #include "base/vec.h"
 
-namespace weft::lights {
+namespace weft {
 
 /// (u, v) in [0, 1]^2 of the direction `d` of any length but 0. At the poles u is arbitrary but
 /// finite. theta is taken by atan2, which keeps its digits near the poles where acos loses half.
@@ -27,4 +27,4 @@ inline Vec3 uv_to_direction(Vec2 uv) {
     return {r * std::cos(phi), std::cos(theta), r * std::sin(phi)};
 }
 
-} // namespace weft::lights
+} // namespace weft

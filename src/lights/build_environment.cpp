@@ -1,12 +1,12 @@
-// The part of WorldBuilder that makes environments and skies.
+// The part of LightBuilder that makes environments and skies.
+#include "lights/light_builder.h"
 #include "lights/solar_position.h"
-#include "world/world_builder.h"
 
-namespace weft::world {
+namespace weft::lights {
 
 namespace {
 
-using Grid = lights::EnvironmentGrid;
+using Grid = EnvironmentGrid;
 
 /// Larger maps are sampled by the means over several of their texels.
 constexpr int kMostColumns = 8192;
@@ -65,7 +65,7 @@ Grid brightness_of(shading::Textures const& textures, scene::Scene const& scene,
 /// A sky, texel by texel, without noise around the sun: half a degree is finer than it varies.
 constexpr Vec2i kSkySize(768, 384);
 
-Grid brightness_of(lights::SkyTable const& sky) {
+Grid brightness_of(SkyTable const& sky) {
     Grid grid{Grid::Filter::bilinear, uint32_t(sky.width), uint32_t(sky.height), {}};
     for (uint32_t y = 0; y < grid.rows(); ++y)
         for (uint32_t x = 0; x < grid.width; ++x)
@@ -79,7 +79,7 @@ Affine directions_of(Affined const& m) {
     return Affine(Affined(m.x * s, m.y * s, m.z * s, Vec3d(0)));
 }
 
-lights::Portal portal_of(scene::Portal const& portal) {
+Portal portal_of(scene::Portal const& portal) {
     Affined const& m = portal.transform;
     Vec3d const n = normalize(cross(m.x, m.y));
     Vec3d const inwards = dot(n, m.z) > 0 ? n : -n;
@@ -98,9 +98,9 @@ constexpr float kEvenPortalPart = 0.01f;
 Vec3 sun_direction(scene::SkyLight const& light) {
     double elevation = double(radians(light.elevation)), azimuth = double(radians(light.azimuth));
     if (auto const date = scene::parse_date(light.date)) {
-        auto const p = lights::solar_position(
-            date->year, date->month, date->day, double(light.time), double(light.time_zone),
-            double(radians(light.latitude)), double(radians(light.longitude)));
+        auto const p = solar_position(date->year, date->month, date->day, double(light.time),
+                                      double(light.time_zone), double(radians(light.latitude)),
+                                      double(radians(light.longitude)));
         elevation = p.elevation;
         azimuth = p.azimuth;
     } else if (length_squared(light.direction) > 0) {
@@ -112,68 +112,66 @@ Vec3 sun_direction(scene::SkyLight const& light) {
 
 } // namespace
 
-void WorldBuilder::prepare_environment(scene::EnvironmentLight const& light,
+void LightBuilder::prepare_environment(scene::EnvironmentLight const& light,
                                        SourceLocation const& where) {
-    world_.textures_.prepare(compiler_, light.texture.texture, where);
-    if (!within(world_.textures_.needs(light.texture.texture), shading::Needs::uv))
+    textures_.prepare(compiler_, light.texture.texture, where);
+    if (!within(textures_.needs(light.texture.texture), shading::Needs::uv))
         throw InputError(where, "'texture' of <light type=\"envmap\"> expects nodes that depend on "
                                 "uv alone, found one that depends on a surface");
 }
 
-bool WorldBuilder::is_compensated(scene::LightControls const& controls) const {
+bool LightBuilder::is_compensated(scene::LightControls const& controls) const {
     // What shadow catchers catch is found by light sampling alone, too.
-    bool const caught = std::any_of(world_.objects_.begin(), world_.objects_.end(),
-                                    [](Object const& o) { return o.shadow_catcher; });
-    return options_.compensate && !caught && !is_sampled_alone(controls);
+    bool const caught = std::any_of(world_.objects().begin(), world_.objects().end(),
+                                    [](world::Object const& o) { return o.shadow_catcher; });
+    return compensate_ && !caught && !is_sampled_alone(controls);
 }
 
-void WorldBuilder::add_environment(EnvironmentLight light, std::span<scene::PortalId const> portals,
-                                   scene::LightControls const& controls, LightList& list) {
+void LightBuilder::add_environment(EnvironmentLight light, std::span<scene::PortalId const> portals,
+                                   scene::LightControls const& controls) {
     light.to_map = light.to_world.inverse();
-    std::vector<lights::PortalMap> maps;
+    std::vector<PortalMap> maps;
     auto const brightness_at = [&](Vec3 const& d) {
-        return luminance(light.radiance(world_.textures_, d));
+        return luminance(light.radiance(textures_, d));
     };
     float const even = kEvenPortalPart * light.sampler.total() / (4 * kPi);
     uint32_t const lookups = std::min(light.sampler.columns() / (2 * kPortalCells) + 1, 8u);
     for (scene::PortalId id : portals)
         maps.emplace_back(portal_of(scene_.portals[size_t(id.index)]), kPortalCells, lookups, even,
                           brightness_at);
-    light.portals = lights::PortalSampler(std::move(maps));
+    light.portals = PortalSampler(std::move(maps));
     light.whole = is_compensated(controls) ? 0 : kWholePart;
-    float const power = list.cross_section * light.sampler.total();
-    list.add(std::move(light), at_infinity(), power, controls);
+    float const power = list_.cross_section * light.sampler.total();
+    list_.add(std::move(light), at_infinity(), power, controls);
 }
 
-void WorldBuilder::add_light(scene::EnvironmentLight const& light, SourceLocation const& where,
-                             LightList& list) {
+void LightBuilder::add_light(scene::EnvironmentLight const& light, SourceLocation const& where) {
     prepare_environment(light, where);
     Color const tint = scene::scale_of(light.color, light.unit);
-    lights::EnvironmentSampler sampler(brightness_of(world_.textures_, scene_, light.texture, tint),
-                                       is_compensated(light.controls));
+    EnvironmentSampler sampler(brightness_of(textures_, scene_, light.texture, tint),
+                               is_compensated(light.controls));
     add_environment(
         {light.texture, directions_of(light.transform), {}, std::move(sampler), {}, 0, tint},
-        light.portals, light.controls, list);
+        light.portals, light.controls);
 }
 
-void WorldBuilder::add_light(scene::SkyLight const& light, SourceLocation const&, LightList& list) {
+void LightBuilder::add_light(scene::SkyLight const& light, SourceLocation const&) {
     Vec3 const sun = sun_direction(light);
-    lights::SkyTable table = lights::make_sky_table(
+    SkyTable table = make_sky_table(
         {sun, light.turbidity, light.ground, light.sky_intensity, light.sun_intensity}, kSkySize.x,
         kSkySize.y);
-    lights::EnvironmentSampler sampler(brightness_of(table), is_compensated(light.controls));
+    EnvironmentSampler sampler(brightness_of(table), is_compensated(light.controls));
     Affine const to_world = directions_of(light.transform);
     add_environment({std::move(table), to_world, {}, std::move(sampler), {}}, light.portals,
-                    light.controls, list);
+                    light.controls);
 
-    Color const irradiance = lights::sun_irradiance(double(light.turbidity),
-                                                    std::asin(std::clamp(double(sun.y), -1., 1.))) *
-                             light.sun_intensity;
+    Color const irradiance =
+        sun_irradiance(double(light.turbidity), std::asin(std::clamp(double(sun.y), -1., 1.))) *
+        light.sun_intensity;
     if (is_black(irradiance)) return;
-    list.add(lights::make_sun_disk(normalize(to_world.vector(sun)),
-                                   radians(0.5f * lights::kSunDiameter * light.sun_size),
-                                   irradiance, lights::kSunLimb),
-             at_infinity(), list.cross_section * luminance(irradiance), light.controls);
+    list_.add(make_sun_disk(normalize(to_world.vector(sun)),
+                            radians(0.5f * kSunDiameter * light.sun_size), irradiance, kSunLimb),
+              at_infinity(), list_.cross_section * luminance(irradiance), light.controls);
 }
 
-} // namespace weft::world
+} // namespace weft::lights

@@ -1,15 +1,15 @@
-#include "world/lamp_scene.h"
+#include "lights/lamp_scene.h"
 
 #include <stdexcept>
 
 #include "lights/luminaire.h"
 
-namespace weft::world {
+namespace weft::lights {
 
 /// Per query: whom to call with what is met.
 struct LampScene::Query {
-    QueryContext context; // first, so that a pointer to it is a pointer to this
-    Ray const* ray;
+    world::QueryContext context; // first, so that a pointer to it is a pointer to this
+    world::Ray const* ray;
     Vec3 from;
     void* function;
     Call call;
@@ -36,7 +36,8 @@ LampScene::~LampScene() { rtcReleaseScene(scene_); }
 void LampScene::bounds(RTCBoundsFunctionArguments const* args) {
     Ball const& ball = static_cast<LampScene const*>(args->geometryUserPtr)->balls_[args->primID];
     // So that rounding cuts nothing off a small ball far from the origin.
-    float const reach = ball.radius + kRounding * (max_component(abs(ball.centre)) + ball.radius);
+    float const reach =
+        ball.radius + world::kRounding * (max_component(abs(ball.centre)) + ball.radius);
     *args->bounds_o = {ball.centre.x - reach, ball.centre.y - reach, ball.centre.z - reach, 0,
                        ball.centre.x + reach, ball.centre.y + reach, ball.centre.z + reach, 0};
 }
@@ -47,16 +48,16 @@ void LampScene::intersect(RTCIntersectFunctionNArguments const* args) {
     auto const& query = *reinterpret_cast<Query const*>(args->context);
     Ball const& ball = static_cast<LampScene const*>(args->geometryUserPtr)->balls_[args->primID];
     Meeting meeting{ball.light, 0, Vec3(0)};
-    double const t = lights::distance_to_ball(ball.centre, ball.radius, query.ray->origin,
-                                              query.ray->direction, query.from, meeting.n);
+    double const t = distance_to_ball(ball.centre, ball.radius, query.ray->origin,
+                                      query.ray->direction, query.from, meeting.n);
     if (!(t > 0 && t < double(query.ray->t_max))) return;
     meeting.t = float(t);
     query.call(query.function, meeting);
 }
 
-void LampScene::visit(Ray const& ray, Vec3 const& from, void* function, Call call) const {
+void LampScene::visit(world::Ray const& ray, Vec3 const& from, void* function, Call call) const {
     Query query;
-    init_context(&query.context);
+    world::init_context(&query.context);
     query.ray = &ray;
     query.from = from;
     query.function = function;
@@ -76,7 +77,7 @@ void LampScene::visit(Ray const& ray, Vec3 const& from, void* function, Call cal
                0};
     hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    embree_intersect(scene_, &query.context, &hit);
+    world::embree_intersect(scene_, &query.context, &hit);
 }
 
-} // namespace weft::world
+} // namespace weft::lights

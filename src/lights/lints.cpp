@@ -1,0 +1,33 @@
+#include "lights/lints.h"
+
+#include "shading/material_lints.h"
+
+namespace weft::lights {
+
+std::vector<std::string> lint_warnings(Stage const& stage, scene::Integrator const& integrator,
+                                       SourceLocation const& where) {
+    std::vector<std::string> warnings;
+    world::World const& world = stage.world();
+    scene::Scene const& scene = world.scene();
+    bool emits = stage.lights().size() > 0;
+    for (uint32_t i = 0; i < world.objects().size(); ++i) {
+        world::Object const& o = world.object(i);
+        std::string const at = to_string(location_of(scene, scene::InstanceId{o.source_instance}));
+        emits |= bool(o.emission);
+        if (o.emission && stage.lights().of_object(i) < 0)
+            warnings.push_back(at + ": emits light but is no <light type=\"area\">: only rays "
+                                    "that hit it by chance find it, which is noisy");
+        if (!o.material && !o.emission && !o.is_null && emits)
+            warnings.push_back(at + ": has no <bsdf> and will be black");
+    }
+    for (std::string& warning : shading::material_warnings(scene))
+        warnings.push_back(std::move(warning));
+    if (!scene::outputs_of(integrator)) return warnings;
+    if (!emits)
+        warnings.push_back(to_string(where) +
+                           ": the scene has no light: the picture will be black; add a <light>");
+    for (std::string& warning : light_warnings(stage)) warnings.push_back(std::move(warning));
+    return warnings;
+}
+
+} // namespace weft::lights
