@@ -1,12 +1,14 @@
-# What the tests of the program share; to be sourced. They count in `failures`.
+# What the tests of the program share; to be sourced. They count in `failures`. The arguments of the
+# test are the program and, where it needs them, the sources; $work is an empty folder that is gone
+# when the test ends.
 failures=0
+weft=$(realpath "$1")
+source=$(realpath "${2:-.}")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
 
-# Goes to an empty folder, $work, that is gone when the test ends.
-enter_new_folder() {
-    work=$(mktemp -d)
-    trap 'rm -rf "$work"' EXIT
-    cd "$work" || exit 1
-}
+# To be called where files with equal pixels have to be equal: they hold no time.
+without_dates() { export SOURCE_DATE_EPOCH=0; }
 
 # expect CODE COMMAND...: runs it, keeping its output in `out` and `err`.
 expect() {

@@ -2,8 +2,7 @@
 # command_line_test.sh WEFT: exit codes, options and outputs of the program.
 set -uo pipefail
 . "$(dirname "$0")/checks.sh"
-weft=$1
-enter_new_folder
+cd "$work" || exit 1
 
 cat >s.xml <<'X'
 <integrator type="path" depth="4">

@@ -2,9 +2,8 @@
 # denoise_test.sh WEFT: weft denoise, and postprocesses of scene files.
 set -uo pipefail
 . "$(dirname "$0")/checks.sh"
-weft=$1
-enter_new_folder
-export SOURCE_DATE_EPOCH=0 # files with equal pixels are equal
+cd "$work" || exit 1
+without_dates
 
 cat >s.xml <<'X'
 <scene id="room">

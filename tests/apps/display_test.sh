@@ -2,10 +2,9 @@
 # display_test.sh WEFT SOURCE: how pictures are shown and bloomed, by scene files and options.
 set -uo pipefail
 . "$(dirname "$0")/checks.sh"
-weft=$1
-enter_new_folder
+cd "$work" || exit 1
+without_dates
 unset OCIO
-export SOURCE_DATE_EPOCH=0 # files with equal pixels are equal
 
 cat >plain.xml <<'X'
 <integrator type="path" depth="3"><sampler type="sobol" count="4"/><image id="plain"/>

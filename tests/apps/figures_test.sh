@@ -2,10 +2,8 @@
 # figures_test.sh WEFT SOURCE: tools/render_figures renders every figure, and docs/figures.md shows
 # and names each one.
 set -euo pipefail
-export WEFT=$1
-source=$2
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+. "$(dirname "$0")/checks.sh"
+export WEFT=$weft
 "$source/tools/render_figures" "$work" --spp 1 --size 5% --progress none >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
 
 count=0

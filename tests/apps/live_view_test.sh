@@ -2,8 +2,7 @@
 # live_view_test.sh WEFT: what can be seen of a render while it goes on.
 set -uo pipefail
 . "$(dirname "$0")/checks.sh"
-weft=$1
-enter_new_folder
+cd "$work" || exit 1
 
 cat >s.xml <<'X'
 <integrator type="path" depth="4">

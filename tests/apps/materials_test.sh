@@ -3,9 +3,6 @@
 # `weft help`, and stands with its swatch in docs/materials.md, which is up to date.
 set -uo pipefail
 . "$(dirname "$0")/checks.sh"
-weft=$1 source=$2
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
 
 # info BSDF: what `weft info` says of a ball with this material, into $work/out.
 info() {

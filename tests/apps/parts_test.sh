@@ -3,9 +3,8 @@
 # that was made at once.
 set -uo pipefail
 . "$(dirname "$0")/checks.sh"
-weft=$1
-enter_new_folder
-export SOURCE_DATE_EPOCH=0 # files with equal pixels are equal
+cd "$work" || exit 1
+without_dates
 
 cat >s.xml <<'X'
 <integrator type="path" depth="6" aovs="depth, albedo, crypto_object">

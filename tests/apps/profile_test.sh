@@ -3,9 +3,8 @@
 # changes no pixel.
 set -uo pipefail
 . "$(dirname "$0")/checks.sh"
-weft=$1
-enter_new_folder
-export SOURCE_DATE_EPOCH=0 # files with equal pixels are equal
+cd "$work" || exit 1
+without_dates
 
 # scene FILE MATERIAL LIGHTS: a floor.
 scene() {

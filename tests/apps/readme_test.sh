@@ -2,9 +2,7 @@
 # readme_test.sh WEFT SOURCE: runs every command that README.md shows, with the scene that it shows.
 # Those that install, build or test everything are run by people and by continuous integration.
 set -euo pipefail
-weft=$1 source=$2
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+. "$(dirname "$0")/checks.sh"
 cd "$work"
 
 blocks() { awk -v fence="^\`\`\`$1\$" '$0 ~ fence {on = 1; next} /^```/ {on = 0} on' "$source/README.md"; }

@@ -1,7 +1,6 @@
 #!/bin/bash
 # reference_test.sh WEFT SOURCE: docs/reference is what `weft docs` writes today.
 set -euo pipefail
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-"$1" docs "$work"
-diff -r "$work" "$2/docs/reference" || { echo "docs/reference is stale: run 'make docs'"; exit 1; }
+. "$(dirname "$0")/checks.sh"
+"$weft" docs "$work"
+diff -r "$work" "$source/docs/reference" || { echo "docs/reference is stale: run 'make docs'"; exit 1; }

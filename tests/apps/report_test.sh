@@ -3,8 +3,7 @@
 # that its line moves and its pictures are right. Without Chromium only the page is looked at (exit 77).
 set -uo pipefail
 . "$(dirname "$0")/checks.sh"
-weft=$1
-enter_new_folder
+cd "$work" || exit 1
 
 # A reference of one grey, and pictures that are darker on the left and brighter on the right.
 cat >s.xml <<'X'

@@ -5,9 +5,8 @@
 # larger run by hand: `textures_test.sh build/release/weft . 20 8192 512`.
 set -uo pipefail
 . "$(dirname "$0")/checks.sh"
-weft=$(realpath "$1")
 files=${3:-4} size=${4:-5800} memory=${5:-50}
-enter_new_folder
+cd "$work" || exit 1
 export XDG_CACHE_HOME=$work/cache
 # peak COMMAND...: its largest resident set in megabytes, in the variable `peak`.
 peak() {
