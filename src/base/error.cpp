@@ -60,4 +60,15 @@ std::string suggestion(std::string_view name, std::span<std::string const> candi
     return list.empty() ? "" : "; known: " + list;
 }
 
+std::string in_quotes(std::string_view text) {
+    constexpr size_t longest = 200;
+    bool const cut = text.size() > longest;
+    size_t end = cut ? longest : text.size();
+    // Not inside of a character, which has at most four bytes.
+    while (cut && end > longest - 4 && (text[end] & 0xc0) == 0x80) --end;
+    std::string result = "'";
+    for (char c : text.substr(0, end)) result += static_cast<unsigned char>(c) < 32 ? ' ' : c;
+    return result + (cut ? "...'" : "'");
+}
+
 } // namespace weft

@@ -29,6 +29,9 @@ class InputError : public std::runtime_error {
         : std::runtime_error(to_string(where) + ": " + message) {}
 };
 
+/// 'text' for a message: on one line, in quotes, cut where it is long.
+std::string in_quotes(std::string_view text);
+
 /// The candidate nearest to `name` by edit distance (case ignored), or "" where none is near
 /// enough to be meant (further than a third of the length, at least 2 edits).
 std::string nearest_name(std::string_view name, std::span<std::string const> candidates);

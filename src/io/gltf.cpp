@@ -5,10 +5,9 @@
 #include <filesystem>
 
 #include "base/file_bytes.h"
-#include "io/append.h"
 #include "io/gltf_nodes.h"
 #include "io/gltf_view.h"
-#include "io/xml_document.h"
+#include "scene/scene_vectors.h"
 
 namespace weft::io {
 
@@ -116,8 +115,8 @@ SceneFile read_gltf_scene(std::string const& path, std::shared_ptr<image::Textur
     if (contents.instances.empty())
         throw InputError({path}, "expected a mesh in the default scene, found none");
     if (contents.cameras.empty()) {
-        contents.cameras.push_back(
-            {append(scene->cameras, gltf::frame_all(*scene, contents.instances, {path}))});
+        contents.cameras.push_back(scene::add(*scene, scene::CameraKind{},
+                                              gltf::frame_all(*scene, contents.instances, {path})));
     }
     to.camera = contents.cameras.front();
     if (contents.cameras.size() > 1)
@@ -126,13 +125,12 @@ SceneFile read_gltf_scene(std::string const& path, std::shared_ptr<image::Textur
     to.instances = contents.instances;
     to.lights = contents.lights;
     auto add_light = [&](scene::Light light, SourceLocation const& where) {
-        to.lights.push_back({append(scene->lights, std::move(light))});
-        scene->light_locations.push_back(where);
+        to.lights.push_back(scene::add(*scene, scene::LightKind{}, std::move(light), where));
     };
     auto add_lamps = [&](std::vector<scene::InstanceId> const& lamps, float weight) {
         for (scene::InstanceId id : lamps)
             add_light(scene::AreaLight{.instance = id, .controls = {.weight = weight}},
-                      scene->instance_locations[size_t(id.index)]);
+                      location_of(*scene, id));
     };
     add_lamps(contents.emissive, 1);
     add_lamps(contents.unlit, 0);

@@ -7,8 +7,7 @@
 
 #include <cmath>
 
-#include "io/append.h"
-#include "scene/scene.h"
+#include "scene/scene_vectors.h"
 
 namespace weft::io::gltf {
 
@@ -42,8 +41,7 @@ class Nodes {
 
     template <class Node>
     scene::TextureId add(Node node) {
-        scene_.texture_locations.push_back(where);
-        return {append(scene_.textures, std::move(node))};
+        return scene::add(scene_, schema::TextureKind{}, std::move(node), where);
     }
 
     template <class Op, class T>

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "base/error.h"
 #include "io/mesh_text.h"
-#include "io/xml_document.h"
 #include "schema/text.h"
 
 namespace weft::io::gltf {

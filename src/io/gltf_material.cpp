@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "io/append.h"
-#include "io/xml_document.h"
+#include "scene/scene_vectors.h"
 
 namespace weft::io::gltf {
 
@@ -80,9 +79,8 @@ Surface MaterialReader::read(Object& material, VertexData const& vertices) {
         material.boolean("doubleSided", false);
         material.finish();
     }
-    s.bsdf = {append(scene_.materials, disney)};
-    scene_.material_locations.push_back(file_.report().at(material.path()));
-    scene_.material_names.push_back(Object(material).text("name"));
+    s.bsdf = scene::add(scene_, scene::MaterialKind{}, disney, file_.report().at(material.path()),
+                        Object(material).text("name"));
     return s;
 }
 
@@ -256,8 +254,10 @@ void MaterialReader::read_transmission(Object& material, scene::Disney& to, Surf
     auto absorption = [&](float c) {
         return float(-std::log(std::max(double(c), 1e-6)) / distance);
     };
-    surface.medium = {append(scene_.media, {.absorption = {absorption(color.r), absorption(color.g),
-                                                           absorption(color.b)}})};
+    surface.medium =
+        scene::add(scene_, scene::MediumKind{},
+                   scene::HomogeneousMedium{.absorption = {absorption(color.r), absorption(color.g),
+                                                           absorption(color.b)}});
 }
 
 } // namespace weft::io::gltf

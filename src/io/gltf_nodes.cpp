@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/append.h"
 #include "io/gltf_mesh.h"
 #include "io/gltf_view.h"
-#include "io/xml_document.h"
+#include "scene/check.h"
+#include "scene/scene_vectors.h"
 
 namespace weft::io::gltf {
 
@@ -29,14 +29,6 @@ bool is_finite(Affined const& m) {
     for (Vec3d const& v : {m.x, m.y, m.z, m.origin})
         sum += std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
     return sum < double(std::numeric_limits<float>::max());
-}
-
-/// Whether the map can be inverted in the numbers that rendering uses.
-bool is_invertible(Affined const& m) {
-    Affine const f(m);
-    float const d = f.determinant();
-    return d != 0 && std::isfinite(1 / d) && weft::is_finite(f.inverse().x) &&
-           weft::is_finite(f.inverse().y) && weft::is_finite(f.inverse().z);
 }
 
 Affined scaling(Vec3d const& s) { return {{s.x, 0, 0}, {0, s.y, 0}, {0, 0, s.z}, Vec3d(0)}; }
@@ -166,7 +158,7 @@ std::vector<NodeReader::Part> const& NodeReader::mesh(size_t index) {
         scene::MeshShape shape;
         shape.filename = {file_.report().at(primitive.path()).file, int32_t(scene_.meshes.size())};
         scene_.meshes.push_back(std::make_shared<scene::Mesh const>(std::move(*made)));
-        parts.push_back({{append(scene_.shapes, std::move(shape))}, surface});
+        parts.push_back({scene::add(scene_, scene::ShapeKind{}, std::move(shape)), surface});
     }
     if (o.has("weights")) o.ignore("weights"); // told with the targets that they weigh
     o.finish();
@@ -223,7 +215,7 @@ void NodeReader::add_instances(Object& node, size_t index, Affined const& to_wor
 }
 
 void NodeReader::add_instance(Part const& part, Affined const& to_world, Object const& node) {
-    if (!is_finite(to_world) || !is_invertible(to_world)) {
+    if (!scene::is_invertible(to_world)) {
         file_.report().warn(node.path(), "has no volume, or more than numbers can hold, and its "
                                          "mesh is left out");
         return;
@@ -233,21 +225,22 @@ void NodeReader::add_instance(Part const& part, Affined const& to_world, Object 
     instance.transform = to_world;
     instance.bsdf = part.surface.bsdf;
     instance.medium = part.surface.medium;
-    contents_.instances.push_back({append(scene_.instances, instance)});
-    scene_.instance_locations.push_back(file_.report().at(node.path()));
-    scene_.instance_names.push_back(Object(node).text("name"));
+    contents_.instances.push_back(scene::add(scene_, scene::InstanceKind{}, instance,
+                                             file_.report().at(node.path()),
+                                             Object(node).text("name")));
     if (part.surface.radiance > 0) contents_.emissive.push_back(contents_.instances.back());
     if (part.surface.is_unlit) contents_.unlit.push_back(contents_.instances.back());
     contents_.radiance = std::max(contents_.radiance, part.surface.radiance);
 }
 
 void NodeReader::add_camera(Object& camera, Affined const& to_world) {
-    contents_.cameras.push_back({append(scene_.cameras, read_camera(camera, to_world))});
+    contents_.cameras.push_back(
+        scene::add(scene_, scene::CameraKind{}, read_camera(camera, to_world)));
 }
 
 void NodeReader::add_light(Object& light, Affined const& to_world, Object const& node) {
-    contents_.lights.push_back({append(scene_.lights, read_light(light, to_world))});
-    scene_.light_locations.push_back(file_.report().at(node.path()));
+    contents_.lights.push_back(scene::add(scene_, scene::LightKind{}, read_light(light, to_world),
+                                          file_.report().at(node.path())));
 }
 
 } // namespace weft::io::gltf

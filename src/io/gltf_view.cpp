@@ -5,8 +5,7 @@
 #include <cstring>
 
 #include "base/match.h"
-#include "io/append.h"
-#include "io/xml_document.h"
+#include "scene/scene_vectors.h"
 
 namespace weft::io::gltf {
 
@@ -235,9 +234,9 @@ scene::EnvironmentLight make_studio(scene::Scene& scene, scene::Camera const& ca
     std::memcpy(texels.data(), map.data(), texels.size());
     scene.images.push_back(std::make_shared<image::Texture const>(
         image::Texture::in_memory({image::TexelType::f32, 1}, kWidth, kRows, std::move(texels))));
-    scene.texture_locations.push_back({"studio"});
     scene::EnvironmentLight light;
-    light.texture.texture = {append(scene.textures, texture)};
+    light.texture.texture =
+        scene::add(scene, schema::TextureKind{}, std::move(texture), {"studio"});
     Affined const& eye = match(
         camera, [](auto const& c) -> auto& { return c.view.transform; });
     // Horizontally from the scene to the camera; one that looks down has its own "down" there.

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "io/scene_builder.h"
+#include "schema/messages.h"
 
 namespace weft::io {
 
@@ -43,10 +44,24 @@ std::string element_title(XmlElement const& element) {
 }
 
 SourceLocation const& location_of(XmlElement const& element, std::string_view name) {
+    if (name.empty()) return element.where;
     if (XmlAttribute const* a = element.find(name)) return a->where;
     for (auto const& child : element.children)
         if (child->get("name") == name) return child->where;
     return element.where;
+}
+
+void expect_type(XmlElement const& e, std::string_view type) {
+    std::string const name(type);
+    XmlAttribute const* a = e.find("type");
+    if (!a) throw InputError(e.where, "<" + e.tag + "> expects type=\"" + name + "\"");
+    if (a->value != type)
+        throw InputError(a->where, "unknown type " + in_quotes(a->value) + " of <" + e.tag + ">" +
+                                       suggestion(a->value, std::vector{name}));
+}
+
+bool is_given(XmlElement const& element, std::string_view name) {
+    return &location_of(element, name) != &element.where;
 }
 
 std::string ObjectReader::title_of(std::string_view name) const {
@@ -86,11 +101,8 @@ bool ObjectReader::matches(XmlElement const& child, std::string_view name,
 
 void ObjectReader::missing(std::string_view name, schema::Attr const& attr, std::string_view kind,
                            std::string_view category) const {
-    std::string what = "'" + std::string(name) + "' (" + std::string(kind) + ")";
-    if (!category.empty())
-        what = (category.front() == 'i' || category.front() == 'e' ? "an <" : "a <") +
-               std::string(category) + ">";
-    throw InputError(element_.where, element_title(element_) + " expects " + what +
+    throw InputError(element_.where, element_title(element_) + " expects " +
+                                         schema::missing_phrase(name, kind, category) +
                                          ", found none: " + std::string(attr.help));
 }
 

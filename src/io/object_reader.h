@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/xml_document.h"
+#include "scene/check.h"
 #include "schema/schema.h"
 
 namespace weft::io {
@@ -24,6 +25,24 @@ bool is_definition_tag(std::string_view tag);
 std::string element_title(XmlElement const& element);
 /// Where the parameter `name` of an object stands; the object's own place where it is not given.
 SourceLocation const& location_of(XmlElement const& element, std::string_view name);
+/// Whether the element has an attribute of this name, or a child that is called so.
+bool is_given(XmlElement const& element, std::string_view name);
+
+/// Throws unless the element names this type: the only one that its category has.
+void expect_type(XmlElement const& element, std::string_view type);
+
+/// An element as the rules of scenes speak of it.
+class ElementReport final : public scene::Report {
+  public:
+    explicit ElementReport(XmlElement const& element) : element_(element) {}
+    std::string title() const override { return element_title(element_); }
+    SourceLocation where(std::string_view parameter) const override {
+        return location_of(element_, parameter);
+    }
+
+  private:
+    XmlElement const& element_;
+};
 
 class ObjectReader {
   public:

@@ -4,7 +4,8 @@
 #include "base/match.h"
 #include "io/scene_builder.h"
 #include "io/transform_reader.h"
-#include "scene/node_types.h"
+#include "scene/scene_vectors.h"
+#include "schema/messages.h"
 
 namespace weft::io {
 
@@ -38,33 +39,6 @@ constexpr std::string_view category_of(schema::Input<T> const&) {
 template <class Kind>
 constexpr std::string_view category_of(std::vector<schema::Id<Kind>> const&) {
     return Kind::category;
-}
-
-/// Whether every number of `v` lies in the parameter's range.
-inline bool in_range(double v, schema::Attr const& attr) { return v >= attr.min && v <= attr.max; }
-inline bool in_range(Color const& c, schema::Attr const& attr) {
-    return in_range(c.r, attr) && in_range(c.g, attr) && in_range(c.b, attr);
-}
-inline bool in_range(Vec3 const& v, schema::Attr const& attr) {
-    return in_range(v.x, attr) && in_range(v.y, attr) && in_range(v.z, attr);
-}
-inline bool in_range(Vec2 const& v, schema::Attr const& attr) {
-    return in_range(v.x, attr) && in_range(v.y, attr);
-}
-inline bool in_range(schema::AnyValue const& a, schema::Attr const& attr) {
-    return in_range(a.v, attr);
-}
-template <class T>
-bool in_range(schema::Input<T> const& v, schema::Attr const& attr) {
-    return in_range(v.value, attr);
-}
-
-/// "at least 0 and at most 1"
-inline std::string range_phrase(schema::Attr const& attr) {
-    std::string const low = "at least " + schema::number_text(attr.min);
-    std::string const high = "at most " + schema::number_text(attr.max);
-    if (!std::isfinite(attr.max)) return low;
-    return std::isfinite(attr.min) ? low + " and " + high : high;
 }
 
 /// What a parameter expects, and for a choice also which of them may have been meant.
@@ -125,10 +99,10 @@ void ObjectReader::read_text(std::string_view name, XmlAttribute const& from, T&
                                              in_quotes(from.value) + hint);
         }
         if constexpr (std::is_same_v<T, Affined>) check_invertible(value, from.where);
-        if constexpr (requires { detail::in_range(value, attr); })
-            if (!detail::in_range(value, attr))
+        if constexpr (requires { schema::in_range(value, attr); })
+            if (!schema::in_range(value, attr))
                 throw InputError(from.where, title_of(name) + " expects a value of " +
-                                                 detail::range_phrase(attr) + ", found " +
+                                                 schema::range_phrase(attr) + ", found " +
                                                  in_quotes(from.value));
     } else {
         throw InputError(from.where, title_of(name) + " expects a child tag <" +
@@ -173,7 +147,7 @@ void ObjectReader::read_texture(std::string_view name, XmlElement const& child, 
     XmlElement const& element = builder_.resolve(child);
     if constexpr (detail::is_input<T>) {
         auto const wanted = schema::input_type<decltype(value.value)>;
-        auto const given = builder_.texture_type(id);
+        auto const given = builder_.type_of(id);
         if (!scene::accepts(wanted, given))
             throw InputError(child.where, title_of(name) + " expects a " +
                                               std::string(schema::type_name(wanted)) +
@@ -182,9 +156,9 @@ void ObjectReader::read_texture(std::string_view name, XmlElement const& child, 
                                               "; `convert` and `extract` make one of the other");
     }
     auto check = [&](Color const& c, std::string_view parameter) {
-        if (detail::in_range(c, attr)) return;
+        if (schema::in_range(c, attr)) return;
         throw InputError(location_of(element, parameter),
-                         title_of(name) + " expects a value of " + detail::range_phrase(attr) +
+                         title_of(name) + " expects a value of " + schema::range_phrase(attr) +
                              ", found '" + schema::TextForm<Color>::write(c) + "'");
     };
     if (auto const* checkerboard = std::get_if<scene::Checkerboard>(&texture)) {
@@ -226,23 +200,12 @@ T SceneBuilder::read_struct(XmlElement const& element) {
         reader.allow_definitions();
     object.describe(reader);
     reader.finish(T::info.type);
-    if constexpr (T::info.output == schema::ValueType::inputs) check_input_types(object, element);
-    complete(object, element);
+    ElementReport const report(element);
+    scene::settle(
+        object, [&](std::string_view name) { return is_given(element, name); }, report);
+    scene::check_object(object, facts_, report);
+    load(object, element);
     return object;
-}
-
-template <class Node>
-void SceneBuilder::check_input_types(Node& node, XmlElement const& element) const {
-    auto const type_of = [&](scene::TextureId id) { return texture_type(id); };
-    scene::InputTypes types{type_of};
-    node.describe(types);
-    if (types.clash.empty()) return;
-    throw InputError(location_of(element, types.clash),
-                     in_quotes(types.clash) + " of " + element_title(element) + " expects a " +
-                         std::string(schema::type_name(types.type)) +
-                         " as the inputs before it, found a " +
-                         std::string(schema::type_name(types.clashing)) +
-                         "; `convert` and `extract` make one of the other");
 }
 
 template <class Variant>
@@ -263,6 +226,20 @@ Variant SceneBuilder::read_variant(XmlElement const& element) {
                          "<" + element.tag + "> expects type=\"...\"" + suggestion("", known));
     throw InputError(type->where, "unknown type " + in_quotes(type->value) + " of <" + element.tag +
                                       ">" + suggestion(type->value, known));
+}
+
+template <class Kind>
+int32_t SceneBuilder::add(Kind, XmlElement const& e) {
+    using Object = std::remove_reference_t<decltype(scene::objects<Kind>(scene_))>::value_type;
+    auto const read = [&] {
+        if constexpr (requires { Object::info; }) {
+            if (!Object::info.type.empty()) expect_type(e, Object::info.type);
+            return read_struct<Object>(e);
+        } else {
+            return read_variant<Object>(e);
+        }
+    };
+    return scene::add(scene_, Kind{}, read(), e.where, std::string(e.get("id"))).index;
 }
 
 template <class Kind>

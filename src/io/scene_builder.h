@@ -10,9 +10,7 @@
 
 #include "image/texture_cache.h"
 #include "io/object_reader.h"
-#include "scene/bloom.h"
 #include "scene/display.h"
-#include "scene/scene.h"
 
 namespace weft::io {
 
@@ -44,7 +42,7 @@ enum class Files { read, find };
 class SceneBuilder {
   public:
     SceneBuilder(Document& document, scene::Scene& scene, Files files = Files::read)
-        : document_(document), scene_(scene), files_(files) {}
+        : document_(document), scene_(scene), facts_(scene), files_(files) {}
 
     /// Follows a `<ref>`; any other element is returned as it is.
     XmlElement const& resolve(XmlElement const& element) const;
@@ -57,9 +55,7 @@ class SceneBuilder {
         return scene_.textures[size_t(id.index)];
     }
     /// What a node gives.
-    scene::ValueType texture_type(scene::TextureId id) const {
-        return texture_types_[size_t(id.index)];
-    }
+    scene::ValueType type_of(scene::TextureId id) { return facts_.type_of(id); }
 
     /// Reads one element of a category with several types.
     template <class Variant>
@@ -75,17 +71,11 @@ class SceneBuilder {
     XmlElement const* integrator_element = nullptr; ///< likewise
 
   private:
-    int32_t add(schema::TextureKind, XmlElement const& element);
-    int32_t add(scene::CameraKind, XmlElement const& element);
-    int32_t add(scene::MaterialKind, XmlElement const& element);
-    int32_t add(scene::LayerKind, XmlElement const& element);
-    int32_t add(scene::EmissionKind, XmlElement const& element);
-    int32_t add(scene::VolumeKind, XmlElement const& element);
-    int32_t add(scene::MediumKind, XmlElement const& element);
-    int32_t add(scene::ShapeKind, XmlElement const& element);
+    /// Reads an object and appends it to the scene's vector of its kind.
+    template <class Kind>
+    int32_t add(Kind, XmlElement const& element);
     int32_t add(scene::InstanceKind, XmlElement const& element);
-    int32_t add(scene::LightKind, XmlElement const& element);
-    int32_t add(scene::PortalKind, XmlElement const& element);
+    int32_t add(scene::VolumeKind, XmlElement const& element);
     int32_t add(scene::SamplerKindTag, XmlElement const& element);
     /// Scenes, images and integrators are read by whoever asked for them.
     int32_t add(scene::SceneKind, XmlElement const& element);
@@ -93,43 +83,17 @@ class SceneBuilder {
     int32_t add(scene::DisplayKind, XmlElement const& element);
     int32_t add(scene::IntegratorKind, XmlElement const& element);
 
-    /// What a type needs beyond its parameters: files, and rules between parameters.
+    /// Reads the files that an object names. What it asks beside them is the business of
+    /// scene/check.h.
     template <class T>
-    void complete(T&, XmlElement const&) {}
-    void complete(scene::Instance& instance, XmlElement const& element);
-    void complete(scene::nodes::Convert& node, XmlElement const& element);
-    void complete(scene::ImageTexture& texture, XmlElement const& element);
-    void complete(scene::Layer& layer, XmlElement const& element);
-    void complete(scene::Layered& material, XmlElement const& element);
-    void complete(scene::Coat& material, XmlElement const& element);
-    void complete(scene::Mix& material, XmlElement const& element);
-    void complete(scene::Secondary& material, XmlElement const& element);
-    void complete(scene::ThinLens& camera, XmlElement const& element);
-    void complete(scene::MeshShape& mesh, XmlElement const& element);
-    void complete(scene::Group& group, XmlElement const& element);
-    void complete(scene::PointLight& light, XmlElement const& element);
-    void complete(scene::DirectionalLight& light, XmlElement const& element);
-    void complete(scene::SpotLight& light, XmlElement const& element);
-    void complete(scene::IesLight& light, XmlElement const& element);
-    void complete(scene::AreaLight& light, XmlElement const& element);
-    void complete(scene::SkyLight& light, XmlElement const& element);
-    void complete(scene::Portal& portal, XmlElement const& element);
-    void complete(scene::Bloom& bloom, XmlElement const& element);
-    void complete(scene::Display& display, XmlElement const& element);
-    void complete(scene::SceneContents& contents, XmlElement const& element);
+    void load(T&, XmlElement const&) {}
+    void load(scene::ImageTexture& texture, XmlElement const& element);
+    void load(scene::ThinLens& camera, XmlElement const& element);
+    void load(scene::MeshShape& mesh, XmlElement const& element);
+    void load(scene::Group& group, XmlElement const& element);
+    void load(scene::IesLight& light, XmlElement const& element);
+    void load(scene::Display& display, XmlElement const& element);
 
-    /// Throws where a part of a material is what only whole materials can be.
-    void check_part(scene::MaterialId part, XmlElement const& element) const;
-    /// Throws where inputs of a node that takes any type do not go together.
-    template <class Node>
-    void check_input_types(Node& node, XmlElement const& element) const;
-
-    /// What an instance amounts to, the members of groups included.
-    struct Summary {
-        double objects; ///< may exceed any integer
-        bool emits;
-    };
-    Summary summary(scene::Instance const& instance) const;
     int32_t load_image(std::string const& path, scene::ColorSpace encoding, bool mip_levels,
                        SourceLocation const& where);
     /// The set of files that `path`, which holds <UDIM>, stands for.
@@ -139,11 +103,10 @@ class SceneBuilder {
 
     Document& document_;
     scene::Scene& scene_;
+    scene::Facts facts_;
     Files files_;
     int depth_ = 0; ///< of the object being read
     std::vector<PlacedDisplay> displays_;
-    std::vector<Summary> summaries_; ///< one per instance of the scene
-    std::vector<scene::ValueType> texture_types_;
     /// Elements already in the scene, by what they were read as; -1: being read.
     std::map<std::pair<XmlElement const*, std::string_view>, int32_t> read_;
 };

@@ -5,6 +5,7 @@
 #include <limits>
 #include <span>
 
+#include "scene/check.h"
 #include "schema/text.h"
 
 namespace weft::io {
@@ -131,24 +132,10 @@ Affined read_step(XmlElement const& e) {
     return step;
 }
 
-bool fits_floats(Affined const& m) {
-    bool fits = true;
-    for (Vec3d const& column : {m.x, m.y, m.z, m.origin})
-        for (int row = 0; row < 3; ++row)
-            fits &= std::abs(column[row]) <= double(std::numeric_limits<float>::max());
-    return fits;
-}
-
 } // namespace
 
 void check_invertible(Affined const& m, SourceLocation const& where) {
-    // Singular: the columns span no volume, relative to their lengths.
-    double const volume = length(m.x) * length(m.y) * length(m.z), determinant = m.determinant();
-    bool const spans = std::abs(determinant) > 1e-12 * volume && volume > 0;
-    if (!spans || !fits_floats(m) || !fits_floats(m.inverse()))
-        throw InputError(where,
-                         "expected a transform that can be inverted, found one of determinant " +
-                             schema::number_text(determinant));
+    if (!scene::is_invertible(m)) throw InputError(where, scene::not_invertible_message(m));
 }
 
 Affined read_transform(XmlElement const& element) {

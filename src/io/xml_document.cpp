@@ -201,15 +201,4 @@ std::string existing_file(std::string const& folder, std::string const& file,
                                                           : "none"));
 }
 
-std::string in_quotes(std::string_view text) {
-    constexpr size_t longest = 200;
-    bool const cut = text.size() > longest;
-    size_t end = cut ? longest : text.size();
-    // Not inside of a character, which has at most four bytes.
-    while (cut && end > longest - 4 && (text[end] & 0xc0) == 0x80) --end;
-    std::string result = "'";
-    for (char c : text.substr(0, end)) result += static_cast<unsigned char>(c) < 32 ? ' ' : c;
-    return result + (cut ? "...'" : "'");
-}
-
 } // namespace weft::io

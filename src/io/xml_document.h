@@ -48,7 +48,4 @@ std::unique_ptr<XmlElement> parse_xml(std::string_view text, std::string const& 
 std::string existing_file(std::string const& folder, std::string const& file,
                           SourceLocation const& where);
 
-/// 'text' for a message: on one line, in quotes, cut where it is long.
-std::string in_quotes(std::string_view text);
-
 } // namespace weft::io

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/error.h"
+
 namespace weft::scene {
 
 /// Luminous intensity over a grid of directions. Between its angles it is bilinear; above the last
@@ -18,5 +20,8 @@ struct Photometry {
 
     float at(size_t h, size_t v) const { return candela[h * vertical.size() + v]; }
 };
+
+/// Throws InputError at `where` for anything that the comments above exclude.
+void validate(Photometry const& lamp, SourceLocation const& where);
 
 } // namespace weft::scene

@@ -102,7 +102,8 @@ SourceLocation location_of(Scene const& scene, schema::Id<Kind> id) {
     if constexpr (std::is_same_v<Kind, LightKind>) known = &scene.light_locations;
     if constexpr (std::is_same_v<Kind, MaterialKind>) known = &scene.material_locations;
     if constexpr (std::is_same_v<Kind, schema::TextureKind>) known = &scene.texture_locations;
-    if (known && size_t(id.index) < known->size()) return (*known)[size_t(id.index)];
+    if (known && size_t(id.index) < known->size() && !(*known)[size_t(id.index)].file.empty())
+        return (*known)[size_t(id.index)];
     std::string text = Kind::category + (" " + std::to_string(id.index));
     if (std::string_view const name = name_of(scene, id); !name.empty())
         text += " '" + std::string(name) + "'";

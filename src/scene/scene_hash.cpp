@@ -75,10 +75,10 @@ class Hasher {
 };
 
 template <class T>
-void add_object(Hasher& h, T object) {
+void add_object(Hasher& h, T const& object) {
     h.add(T::info.category);
     h.add(T::info.type);
-    object.describe(h);
+    schema::read_members(object, h);
 }
 template <class... T>
 void add_object(Hasher& h, std::variant<T...> const& object) {

@@ -83,4 +83,28 @@ auto& objects(S& scene) {
     return scene.*std::get<detail::position_of<Kind>()>(kObjectVectors).member;
 }
 
+/// Appends an object, where it was written and what it is called, and returns its id.
+template <class Kind, class T>
+schema::Id<Kind> add(Scene& scene, Kind, T&& object, SourceLocation where = {},
+                     std::string name = {}) {
+    auto& list = objects<Kind>(scene);
+    size_t const index = list.size();
+    list.push_back(std::forward<T>(object));
+    [[maybe_unused]] auto const note = [&](auto& notes, auto&& value) {
+        notes.resize(index);
+        notes.push_back(std::move(value));
+    };
+    if constexpr (std::is_same_v<Kind, schema::TextureKind>) note(scene.texture_locations, where);
+    if constexpr (std::is_same_v<Kind, LightKind>) note(scene.light_locations, where);
+    if constexpr (std::is_same_v<Kind, MaterialKind>) {
+        note(scene.material_locations, where);
+        note(scene.material_names, name);
+    }
+    if constexpr (std::is_same_v<Kind, InstanceKind>) {
+        note(scene.instance_locations, where);
+        note(scene.instance_names, name);
+    }
+    return {int32_t(index)};
+}
+
 } // namespace weft::scene

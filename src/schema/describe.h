@@ -94,6 +94,13 @@ template <class T>
 inline constexpr bool all_described = true;
 #endif
 
+/// Passes the members of `object` to `f`, which only reads them.
+template <class T, class F>
+void read_members(T const& object, F&& f) {
+    // `describe` is written once, for those that change members; const is theirs to keep.
+    const_cast<T&>(object).describe(f);
+}
+
 /// An enumeration whose values 0, 1, ... have names: `choices(E)` is found by argument-dependent
 /// lookup and returns an array of string views.
 template <class E>

@@ -4,6 +4,8 @@
 #include <numeric>
 #include <set>
 
+#include "scene/check.h"
+
 namespace weft::world {
 
 namespace {
@@ -43,6 +45,7 @@ bool keeps_circles(Affined const& m) {
 
 std::unique_ptr<World> World::commit(std::shared_ptr<scene::Scene const> scene,
                                      CommitOptions const& options) {
+    scene::check(*scene);
     std::unique_ptr<World> world(new World);
     world->scene_ = scene;
     WorldBuilder(*world, *scene, options).build();

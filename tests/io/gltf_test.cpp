@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "scene/check.h"
+
 using namespace weft;
 
 namespace {
@@ -126,6 +128,23 @@ TEST(Gltf, NodesComposeAndShareMeshes) {
     expect_near(l.instance(0).transform.point({0, 1, 0}), {7, 0, 0});
     expect_near(l.instance(1).transform.point({0, 0, 0}), {4, 5, 7});
     EXPECT_EQ(to_string(l.scene.instance_locations[1]), "test.gltf: nodes[2]");
+}
+
+TEST(Gltf, ScenesMeetTheRulesOfAllScenes) {
+    Loaded l(square(R"(,"nodes":[{"mesh":0,"name":"card"}])"));
+    l.scene.contents.camera = {0};
+    l.scene.cameras.emplace_back();
+    l.scene.contents.instances = l.contents.instances;
+    EXPECT_NO_THROW(scene::check(l.scene));
+    l.scene.instances[0].group = "a b";
+    try {
+        scene::check(l.scene);
+        ADD_FAILURE() << "no error";
+    } catch (InputError const& e) {
+        EXPECT_STREQ(e.what(),
+                     "test.gltf: nodes[0]: 'group' of <instance> expects letters, digits, "
+                     "_ and -, found 'a b'");
+    }
 }
 
 TEST(Gltf, NodesOfNoExtentAreToldAndLeftOut) {
