@@ -162,7 +162,7 @@ TEST(SceneFile, LongTextsAreCutInMessages) {
 
 TEST(SceneFile, LongTextsOfNoCharactersAreCutInMessages) {
     // Bytes that only go on with a character, and none that begins one.
-    EXPECT_EQ(io::in_quotes(std::string(300, char(0x98))).size(), 196 + 5);
+    EXPECT_EQ(in_quotes(std::string(300, char(0x98))).size(), 196 + 5);
 }
 
 TEST(SceneFile, MessagesAreOneLine) {
