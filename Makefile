@@ -6,10 +6,10 @@ FUZZ_SECONDS ?= 60
 WEFT := build/release/weft
 
 .DEFAULT_GOAL := help
-.PHONY: help weft demo figures test bench docs format check dev asan tsan fuzz clean
+.PHONY: help weft demo figures test bench bench-peers docs format check dev asan tsan fuzz clean
 
 help: ## Print this list
-	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-8s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-11s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
 
 demo: ## Install what is missing, build, and render scenes/demo.xml to build/demo.exr and .png
 demo: weft
@@ -43,6 +43,12 @@ bench: ## Run the benchmarks; figures go to build/bench.json
 	cmake --preset release
 	cmake --build --preset release --target weft_bench
 	build/release/weft_bench build/bench.json
+
+bench-peers: ## Render five scenes beside Cycles, where Blender is installed; pictures go to build/peers
+	@$(SETUP) build test
+	cmake --preset release
+	cmake --build --preset release --target weft weft_bench
+	bench/peers/run $(WEFT) build/release/weft_bench build/peers
 
 docs: ## Regenerate docs/reference from the schemas, docs/materials.md from scenes/materials
 docs: weft

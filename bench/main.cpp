@@ -1,5 +1,7 @@
 // weft_bench [OUT.json] [NAME...]: runs all benchmarks or those named, prints a table, and writes
 // the figures to OUT.json. docs/performance.md says what each means.
+// weft_bench assets: only makes the files that the scenes name.
+// weft_bench variance A B: prints the relative variance of two pictures of one scene.
 #include <algorithm>
 #include <cstdio>
 #include <fmt/format.h>
@@ -131,13 +133,31 @@ int run(std::vector<std::string> names) {
     return 1;
 }
 
+int print_variance(std::string const& a, std::string const& b) {
+    image::Image const first = image::read_image(a), second = image::read_image(b);
+    if (first.width != second.width || first.height != second.height) {
+        fmt::print(stderr, "weft_bench: expected pictures of one size, found {} x {} and {} x {}\n",
+                   first.width, first.height, second.width, second.height);
+        return 2;
+    }
+    fmt::print("{}\n", relative_variance(first, second));
+    return 0;
+}
+
 } // namespace
 
 } // namespace weft::bench
 
 int main(int argc, char** argv) {
     try {
-        return weft::bench::run({argv + 1, argv + argc});
+        std::vector<std::string> const arguments{argv + 1, argv + argc};
+        if (arguments.size() == 3 && arguments[0] == "variance")
+            return weft::bench::print_variance(arguments[1], arguments[2]);
+        if (arguments.size() == 1 && arguments[0] == "assets") {
+            weft::bench::make_assets(weft::bench::kAssets);
+            return 0;
+        }
+        return weft::bench::run(arguments);
     } catch (std::exception const& e) {
         fmt::print(stderr, "weft_bench: {}\n", e.what());
         return 1;

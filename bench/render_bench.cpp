@@ -16,21 +16,6 @@ Cost keep_best(Cost const& best, Cost const& c) {
     return {std::min(best.wall, c.wall), std::min(best.cpu, c.cpu)};
 }
 
-/// With a and b two independent renders, (a - b)^2 / 2 estimates the variance of a pixel of one.
-double relative_variance(image::Image const& a, image::Image const& b) {
-    double sum = 0;
-    size_t const pixels = size_t(a.width) * size_t(a.height);
-    for (size_t i = 0; i < pixels; ++i) {
-        auto pixel_luminance = [&](image::Image const& im) {
-            float const* p = &im.pixels[3 * i];
-            return double(luminance(Color(p[0], p[1], p[2])));
-        };
-        double const x = pixel_luminance(a), y = pixel_luminance(b), m = (x + y) / 2;
-        sum += (x - y) * (x - y) / 2 / (m * m + 0.01);
-    }
-    return sum / double(pixels);
-}
-
 struct RayCount {
     double all = 0, shadow = 0;
 };
@@ -46,6 +31,20 @@ RayCount count_rays(world::RayRecorder const& recorder) {
 }
 
 } // namespace
+
+double relative_variance(image::Image const& a, image::Image const& b) {
+    double sum = 0;
+    size_t const pixels = size_t(a.width) * size_t(a.height);
+    for (size_t i = 0; i < pixels; ++i) {
+        auto pixel_luminance = [&](image::Image const& im) {
+            float const* p = &im.pixels[size_t(im.channels) * i];
+            return double(luminance(Color(p[0], p[1], p[2])));
+        };
+        double const x = pixel_luminance(a), y = pixel_luminance(b), m = (x + y) / 2;
+        sum += (x - y) * (x - y) / 2 / (m * m + 0.01);
+    }
+    return sum / double(pixels);
+}
 
 RenderFigures measure_render(std::string const& scene_file, world::RayRecorder& recorder,
                              int rounds) {
