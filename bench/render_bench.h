@@ -22,8 +22,9 @@ struct RenderFigures {
     double variance = 0;    ///< mean of v / (m^2 + 0.01) over pixels, from two seeds
 };
 
-/// Returns the mean of v / (m^2 + 0.01) over the pixels of two independent renders of one scene of RGB:
-/// of the luminances x and y of a pixel, m is the mean and v = (x - y)^2 / 2 estimates the variance.
+/// Returns the mean of v / (m^2 + 0.01) over the pixels of two independent renders of one scene of
+/// RGB: of the luminances x and y of a pixel, m is the mean and v = (x - y)^2 / 2 estimates the
+/// variance.
 double relative_variance(image::Image const& a, image::Image const& b);
 
 /// Renders the first job of a scene file `rounds` times (at least 2), each with its own seed and
