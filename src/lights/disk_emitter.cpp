@@ -1,8 +1,8 @@
 #include <numbers>
 #include <utility>
 
+#include "lights/area_sampling.h"
 #include "lights/emitter_geometry.h"
-#include "lights/spherical_triangle.h"
 
 namespace weft::lights {
 
@@ -116,8 +116,8 @@ DiskEmitter::View DiskEmitter::view(Vec3 const& ref) const {
     Vec3d& c = v.to_centre;
     double const distance2 = length_squared(c), rx2 = radius_x_ * radius_x_,
                  ry2 = radius_y_ * radius_y_, largest2 = std::max(rx2, ry2);
-    bool const far = distance2 > squared(2 * kFarDistance + 1) * largest2;
-    if (far || !(c.z > 1e-9 * std::sqrt(largest2)) || !(area_ > 0)) return v;
+    if (is_far(largest2, distance2) || !(c.z > 1e-9 * std::sqrt(largest2)) || !(area_ > 0))
+        return v;
     if (std::abs(rx2 - ry2) < 1e-12 * rx2) {
         // A circle may be turned so that the centre lies in the plane x = 0: a third of the work.
         double const aside = std::hypot(c.x, c.y);
@@ -178,9 +178,7 @@ float DiskEmitter::density(View const& v, Vec3 const& ref, Vec3 const& p) const 
         double const x = dot(d, axis_x_), y = dot(d, axis_y_);
         return float(v.density(v.turn_cos * x - v.turn_sin * y, v.turn_sin * x + v.turn_cos * y));
     }
-    // d^2 / (A cos) with the cosine by the distance to the plane.
-    double const cosine_by = double(area_) * v.to_centre.z, d2 = length_squared(d);
-    return cosine_by > 0 ? float(d2 * std::sqrt(d2) / cosine_by) : 0;
+    return area_density(double(area_) * v.to_centre.z, length_squared(d));
 }
 
 EmitterSample DiskEmitter::sample(Vec3 const& ref, Vec2 u, uint32_t) const {

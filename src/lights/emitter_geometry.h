@@ -14,8 +14,8 @@
 // and `sample(...).pdf` is `pdf` at the sampled point, up to rounding. A point is sampled whether
 // or not its front faces ref, since the caller may let both sides emit.
 //
-// Densities are constant per solid angle, or within a quarter of that, near and far and at grazing
-// angles; what is far (spherical_triangle.h) or below 1e-6 sr is sampled by area.
+// Near emitters are sampled uniformly by solid angle, or within a quarter of that, at grazing
+// angles too; far ones by area (area_sampling.h).
 //
 // Left out: sampling by projected solid angle (the BSDF's cosine is not used).
 #pragma once
@@ -45,9 +45,9 @@ struct Box {
 /// The image of the square [-1, 1]^2 x {0} with normal +z and uv = (xy + 1) / 2.
 ///
 /// The front is the side that the transformed normal A^-T z points to, also where A mirrors.
-/// Sampled uniformly in solid angle: rectangles by Urena, Fajardo and King 2013, "An
-/// area-preserving parametrization for spherical rectangles" (rectangle_emitter.cpp has the form
-/// used), other parallelograms as two spherical triangles.
+/// Sampled uniformly in solid angle where it is near: rectangles by Urena, Fajardo and King 2013,
+/// "An area-preserving parametrization for spherical rectangles" (rectangle_emitter.cpp has the
+/// form used), other parallelograms as two spherical triangles.
 class RectangleEmitter {
   public:
     /// `reach`: tangent of the angle from the normal beyond which it is dark. Rectangles are not
@@ -67,17 +67,21 @@ class RectangleEmitter {
     float solid_angle(Vec3 const& ref) const;
 
   private:
+    struct Bounds;
     struct View;
     struct Halves;
+    bool is_far(Vec3d const& to_corner) const;
+    Bounds within_reach(Vec3d const& to_corner) const;
     View view(Vec3d const& to_corner) const;
     Halves halves(Vec3d const& to_corner) const;
-    float area_pdf(Vec3 const& ref, Vec3 const& p, float area) const;
+    float area_pdf(Vec3d const& to_corner, Vec3 const& ref, Vec3 const& p) const;
 
     // In double, and rotated into the rectangle's frame: the solid angle is a difference.
     Vec3d corner_, edge_x_, edge_y_; ///< the point of uv (0, 0) and the full edges
     Vec3d axis_x_, axis_y_, normal_; ///< unit
     double length_x_, length_y_;
     double per_x_, per_y_; ///< 1 / length
+    double radius2_;       ///< of the sphere around it, squared
     float area_;
     double reach_;
     bool is_rectangle_;

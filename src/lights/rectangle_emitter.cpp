@@ -35,13 +35,18 @@ std::array<double, 4> roots(std::array<double, 4> const& a) {
 
 } // namespace
 
-struct RectangleEmitter::View {
-    double corner_x, corner_y; ///< of uv (0, 0); the rest is of what is within reach
+/// What is within reach, in the frame of the rectangle with ref at the origin.
+struct RectangleEmitter::Bounds {
+    double corner_x, corner_y; ///< of uv (0, 0) of the whole rectangle
     double x0, x1, y0, y1, z;
+
+    double area() const { return (x1 - x0) * (y1 - y0); }
+};
+
+struct RectangleEmitter::View : Bounds {
     Complex start;     ///< exp(i G(x0)) times a length, x0^2 + z^2 times l
     float solid_angle; ///< G(x1) - G(x0)
 
-    float area() const { return float((x1 - x0) * (y1 - y0)); }
     /// The square of l = sqrt((y0^2 + z^2) (y1^2 + z^2)).
     double l2() const { return (y0 * y0 + z * z) * (y1 * y1 + z * z); }
     /// exp(i G(x)) times (x^2 + z^2) l; r0 and r1 are the distances to (x, y0) and (x, y1).
@@ -110,6 +115,8 @@ RectangleEmitter::RectangleEmitter(Affine const& to_world, float reach) : reach_
     edge_y_ = m.y * 2.0;
     length_x_ = length(edge_x_);
     length_y_ = length(edge_y_);
+    radius2_ =
+        0.25 * std::max(length_squared(edge_x_ + edge_y_), length_squared(edge_x_ - edge_y_));
     per_x_ = 1 / length_x_;
     per_y_ = 1 / length_y_;
     axis_x_ = edge_x_ * per_x_;
@@ -128,8 +135,12 @@ Box RectangleEmitter::box() const {
     return {centre - reach, centre + reach};
 }
 
-RectangleEmitter::View RectangleEmitter::view(Vec3d const& to_corner) const {
-    View v;
+bool RectangleEmitter::is_far(Vec3d const& to_corner) const {
+    return lights::is_far(radius2_, length_squared(to_corner + (edge_x_ + edge_y_) * 0.5));
+}
+
+RectangleEmitter::Bounds RectangleEmitter::within_reach(Vec3d const& to_corner) const {
+    Bounds v;
     v.x0 = v.corner_x = dot(to_corner, axis_x_);
     v.y0 = v.corner_y = dot(to_corner, axis_y_);
     v.z = std::abs(dot(to_corner, normal_));
@@ -146,6 +157,11 @@ RectangleEmitter::View RectangleEmitter::view(Vec3d const& to_corner) const {
             v.y1 = v.y0;
         }
     }
+    return v;
+}
+
+RectangleEmitter::View RectangleEmitter::view(Vec3d const& to_corner) const {
+    View v{within_reach(to_corner), {}, 0};
     double const z2 = v.z * v.z, dx0 = v.x0 * v.x0 + z2, dx1 = v.x1 * v.x1 + z2, yy0 = v.y0 * v.y0,
                  yy1 = v.y1 * v.y1;
     auto const r = roots({dx0 + yy0, dx0 + yy1, dx1 + yy0, dx1 + yy1});
@@ -174,50 +190,51 @@ EmitterSample RectangleEmitter::at_uv(Vec3 const& ref, Vec2 uv) const {
     return s;
 }
 
-/// d^2 / (A cos) with the cosine by the distance to the plane, exact also at grazing angles.
-float RectangleEmitter::area_pdf(Vec3 const& ref, Vec3 const& p, float area) const {
-    double const z = std::abs(dot(corner_ - Vec3d(ref), normal_));
-    float const d = length(p - ref);
-    float const cosine_by = area * float(z);
-    return cosine_by > 0 ? d * d * (d / cosine_by) : 0;
+/// Of a point chosen uniformly from what is within reach of ref.
+float RectangleEmitter::area_pdf(Vec3d const& to_corner, Vec3 const& ref, Vec3 const& p) const {
+    bool const whole = !is_rectangle_ || reach_ == std::numeric_limits<double>::infinity();
+    double const area = whole ? double(area_) : within_reach(to_corner).area();
+    return area_density(area * std::abs(dot(to_corner, normal_)), double(length_squared(p - ref)));
 }
 
 EmitterSample RectangleEmitter::sample(Vec3 const& ref, Vec2 u, uint32_t) const {
     Vec3d const to_corner = corner_ - Vec3d(ref);
-    float solid_angle, area = area_;
-    Vec2 uv = u;
-    if (is_rectangle_) {
+    auto const uv_at = [&](Bounds const& b, double x, double y) {
+        return Vec2(float((x - b.corner_x) * per_x_), float((y - b.corner_y) * per_y_));
+    };
+    auto const by_solid_angle = [&](Vec2 uv, float solid_angle) {
+        EmitterSample s = at_uv(ref, uv);
+        s.pdf = s.distance > 0 ? 1 / solid_angle : 0;
+        return s;
+    };
+    if (!is_far(to_corner) && is_rectangle_) {
         View const v = view(to_corner);
-        solid_angle = v.solid_angle;
-        area = v.area();
-        bool const by_area = !(solid_angle >= kMinSolidAngle);
-        double const x = by_area ? v.x0 + double(u.x) * (v.x1 - v.x0) : v.abscissa(u.x);
-        double const y = by_area ? v.y0 + double(u.y) * (v.y1 - v.y0) : v.ordinate(x, u.y);
-        uv = {float((x - v.corner_x) * per_x_), float((y - v.corner_y) * per_y_)};
-    } else {
+        if (v.solid_angle >= kMinSolidAngle) {
+            double const x = v.abscissa(u.x);
+            return by_solid_angle(uv_at(v, x, v.ordinate(x, u.y)), v.solid_angle);
+        }
+    } else if (!is_far(to_corner)) {
         Halves const h = halves(to_corner);
-        solid_angle = h.solid_angle();
-        if (solid_angle >= kMinSolidAngle) uv = h.sample(u);
+        if (h.solid_angle() >= kMinSolidAngle) return by_solid_angle(h.sample(u), h.solid_angle());
+    }
+    Vec2 uv = u;
+    if (is_rectangle_ && reach_ < std::numeric_limits<double>::infinity()) {
+        Bounds const b = within_reach(to_corner);
+        uv = uv_at(b, b.x0 + double(u.x) * (b.x1 - b.x0), b.y0 + double(u.y) * (b.y1 - b.y0));
     }
     EmitterSample s = at_uv(ref, uv);
-    if (!(solid_angle >= kMinSolidAngle))
-        s.pdf = area_pdf(ref, s.p, area);
-    else
-        s.pdf = s.distance > 0 ? 1 / solid_angle : 0;
+    s.pdf = area_pdf(to_corner, ref, s.p);
     return s;
 }
 
 float RectangleEmitter::pdf(Vec3 const& ref, Vec3 const& p, Vec3 const&, uint32_t) const {
     Vec3d const to_corner = corner_ - Vec3d(ref);
-    float omega, area = area_;
-    if (is_rectangle_) {
-        View const v = view(to_corner);
-        omega = v.solid_angle;
-        area = v.area();
-    } else {
-        omega = halves(to_corner).solid_angle();
+    if (!is_far(to_corner)) {
+        float const omega =
+            is_rectangle_ ? view(to_corner).solid_angle : halves(to_corner).solid_angle();
+        if (omega >= kMinSolidAngle) return 1 / omega;
     }
-    return omega >= kMinSolidAngle ? 1 / omega : area_pdf(ref, p, area);
+    return area_pdf(to_corner, ref, p);
 }
 
 } // namespace weft::lights

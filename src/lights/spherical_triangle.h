@@ -10,9 +10,8 @@
 // On the arc from b to q heights 1 - cos above b are uniform. The direction comes out as a positive
 // sum of a, b and c, so that its barycentric coordinates need no intersection with the plane.
 //
-// Triangles that are small for their distance are sampled by area, which costs a fifth: the density
-// d^3 / (area x distance of the plane) then varies by a fifth over the triangle, however flatly it
-// is seen. So are those of less than 1e-6 sr: by more only if they are near and seen edge-on.
+// Triangles that are small for their distance are sampled by area (area_sampling.h), which costs a
+// fifth.
 #pragma once
 
 #include <algorithm>
@@ -20,13 +19,9 @@
 
 #include "base/vec.h"
 #include "base/warp.h"
+#include "lights/area_sampling.h"
 
 namespace weft::lights {
-
-/// Below it, in steradians, nothing that is not seen edge-on differs from sampling by area.
-inline constexpr float kMinSolidAngle = 1e-6f;
-/// An emitter is far if its size times this is less than its distance: it is sampled by area.
-inline constexpr double kFarDistance = 16;
 
 /// From a to b to c with the shorter way around each side; less than a hemisphere.
 class SphericalTriangle {
@@ -82,7 +77,9 @@ class TriangleView {
             std::max({length_squared(ab), length_squared(ac), length_squared(bc)});
         double const nearest =
             std::min({length_squared(to_a), length_squared(to_b), length_squared(to_c)});
-        if (longest * (kFarDistance * kFarDistance) < nearest) return;
+        // The sphere around a triangle is at most that around an equilateral one of its longest
+        // side.
+        if (is_far(longest / 3, nearest)) return;
         near_.emplace(to_a, ab, ac);
         if (!(near_->solid_angle() >= kMinSolidAngle)) near_.reset();
     }
@@ -92,13 +89,12 @@ class TriangleView {
     /// Per solid angle, at a point of the triangle at `distance`.
     float pdf(float distance) const {
         if (near_) return 1 / near_->solid_angle();
-        double const d = double(distance);
-        return area_by_height_ > 0 ? float(d * d * d / area_by_height_) : 0;
+        return area_density(area_by_height_, double(distance) * double(distance));
     }
 
   private:
     std::optional<SphericalTriangle> near_;
-    double area_by_height_; ///< area times the distance of the plane: d^2 / cos = d^3 / height
+    double area_by_height_; ///< the area times the distance of the plane
 };
 
 } // namespace weft::lights

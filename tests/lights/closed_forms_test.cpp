@@ -82,7 +82,8 @@ TEST(Rectangle, solid_angle_by_counting_directions) {
     EXPECT_GT(weft::testing::normal_tail(z), kAlpha) << z;
 }
 
-TEST(Rectangle, parts_are_hit_in_proportion_to_their_solid_angle) {
+/// Near rectangles by solid angle, far ones by area.
+TEST(Rectangle, parts_are_hit_in_proportion_to_their_size) {
     int const parts = 10, samples = 1'000'000;
     double const level = weft::testing::sidak(kAlpha, int(std::size(kSeen)));
     for (Seen const& s : kSeen) {
@@ -99,17 +100,18 @@ TEST(Rectangle, parts_are_hit_in_proportion_to_their_solid_angle) {
             ys.push_back(cut(i, double(s.ref.y), double(s.height)));
         }
         RectangleEmitter const light(scaling(1, s.height, 1));
-        double const whole = exact_solid_angle(
-            xs[0] - (long double)s.ref.x, xs.back() - (long double)s.ref.x,
-            ys[0] - (long double)s.ref.y, ys.back() - (long double)s.ref.y, std::abs(s.ref.z));
+        bool const far = is_far(1 + square(double(s.height)), length_squared(Vec3d(s.ref)));
+        auto const size = [&](double x0, double x1, double y0, double y1) {
+            if (far) return (x1 - x0) * (y1 - y0);
+            return exact_solid_angle(x0 - (long double)s.ref.x, x1 - (long double)s.ref.x,
+                                     y0 - (long double)s.ref.y, y1 - (long double)s.ref.y,
+                                     std::abs(s.ref.z));
+        };
+        double const whole = size(xs[0], xs.back(), ys[0], ys.back());
         std::vector<double> observed(parts * parts), expected(parts * parts);
         for (int i = 0; i < parts * parts; ++i) {
             auto const x = size_t(i % parts), y = size_t(i / parts);
-            expected[size_t(i)] =
-                samples / whole *
-                exact_solid_angle(xs[x] - (long double)s.ref.x, xs[x + 1] - (long double)s.ref.x,
-                                  ys[y] - (long double)s.ref.y, ys[y + 1] - (long double)s.ref.y,
-                                  std::abs(s.ref.z));
+            expected[size_t(i)] = samples / whole * size(xs[x], xs[x + 1], ys[y], ys[y + 1]);
         }
         auto const find = [](std::vector<double> const& edges, double v) {
             auto const it = std::upper_bound(edges.begin() + 1, edges.end() - 1, v);
@@ -129,8 +131,8 @@ TEST(Rectangle, parts_are_hit_in_proportion_to_their_solid_angle) {
     }
 }
 
-TEST(Rectangle, small_solid_angles_are_sampled_by_area) {
-    // On both sides of the change the density is 1 / solid angle, or nearly so.
+TEST(Rectangle, density_from_afar_is_one_over_the_solid_angle) {
+    // Also where the solid angle is below what is sampled as such from nearby.
     RectangleEmitter const light{Affine()};
     for (float z : {1500.f, 1990.f, 2010.f, 1e4f, 1e6f}) {
         EmitterSample const s = light.sample({0, 0, z}, {0.7f, 0.2f});
@@ -180,6 +182,9 @@ TEST(Emitter, areas) {
 }
 
 TEST(Disk, density_is_nearly_constant) {
+    // From afar by area: the cube of the distances to the ends of a sphere around it.
+    double const reach = std::sqrt(kFarRadius2);
+    double const far_bound = std::pow((1 + reach) / (1 - reach), 3.0) * (1 + 1e-5);
     double const bound = (1 + std::sqrt(2.0)) / 2 * (1 + 1e-5);
     Rng rng(5);
     for (int k = 0; k < 3000; ++k) {
@@ -194,18 +199,31 @@ TEST(Disk, density_is_nearly_constant) {
             low = std::min(low, pdf);
             high = std::max(high, pdf);
         }
-        bool const by_area = high > 0.9e6 || length(ref) > 32;
-        EXPECT_TRUE(by_area || high / low < bound) << high / low << a.y << ref;
+        double const middle = 0.5 * double(1 + length_squared(a.y));
+        double const largest2 =
+            middle + std::sqrt(square(1 - middle) + square(double(dot(a.x, a.y))));
+        bool const far = is_far(largest2, length_squared(Vec3d(ref))), edge_on = high > 0.9e6;
+        EXPECT_TRUE(edge_on || high / low < (far ? far_bound : bound)) << high / low << a.y << ref;
     }
 }
 
 TEST(Disk, of_a_circular_cone_is_uniform) {
-    for (float height : {0.01f, 0.3f, 1.f, 10.f, 30.f}) {
+    for (float height : {0.01f, 0.3f, 1.f, 2.5f}) {
         double const exact = kTau * (1 - height / std::hypot(1.0, double(height)));
         for (Vec2 u : {Vec2(0, 0), Vec2(0.3f, 0.8f), Vec2(0.999f, 0.4f)})
             EXPECT_NEAR(DiskEmitter(Affine()).sample({0, 0, height}, u).pdf * exact, 1, 2e-5)
                 << height;
     }
+}
+
+TEST(Disk, from_afar_is_sampled_by_area) {
+    for (float height : {2.6f, 10.f, 30.f})
+        for (Vec2 u : {Vec2(0, 0), Vec2(0.3f, 0.8f), Vec2(0.999f, 0.4f)}) {
+            EmitterSample const s = DiskEmitter(Affine()).sample({0, 0, height}, u);
+            double const d2 = length_squared(Vec3d(s.p) - Vec3d(0, 0, double(height)));
+            double const exact = d2 * std::sqrt(d2) / (0.5 * kTau * double(height));
+            EXPECT_NEAR(s.pdf / exact, 1, 1e-6) << height;
+        }
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/match.h"
+#include "lights/area_sampling.h"
 #include "tests/lights/emitter_checks.h"
 
 namespace weft::lights::testing {
@@ -84,6 +85,19 @@ inline std::vector<Case> emitter_cases() {
     rectangle("parallelogram grazing", shear, shear.point({2.5f, 0.1f, 0.05f}));
     rectangle("parallelogram very near", shear, shear.point({-0.9f, 0.95f, 1e-3f}));
     rectangle("parallelogram far", shear, side * 1e5f);
+
+    // Either side of the distance from which emitters are sampled by area.
+    auto const border = [](double radius2, double part) {
+        return Vec3(normalize(Vec3d(0.5, 0.4, 0.6)) * (part * std::sqrt(radius2 / kFarRadius2)));
+    };
+    rectangle("rectangle, just near", Affine(), border(2, 0.99));
+    rectangle("rectangle, just far", Affine(), border(2, 1.01));
+    rectangle("rectangle grazing, just far", Affine(), Vec3(0.8f, 0.6f, 0.05f) * 3.7f);
+    disk("disk, just near", Affine(), border(1, 0.99));
+    disk("disk, just far", Affine(), border(1, 1.01));
+    disk("disk grazing, just far", Affine(), Vec3(0.8f, 0.6f, 0.05f) * 2.65f);
+    triangle("triangle, just near", Affine(), {0, 0, 3.1f});
+    triangle("triangle, just far", Affine(), {0, 0, 3.4f});
 
     disk("disk", Affine(), {0.3f, 0.2f, 1.5f});
     disk("disk on its axis", Affine(), {0, 0, 0.8f});
