@@ -17,13 +17,12 @@ struct PathEvent {
     Vec3 direction{0, 0, 0}; ///< Camera, Bounce, Straight, Background: of the ray; Surface: normal
     Color value; ///< Bounce, Straight: factor of the throughput; Light: what the sample gains; all
                  ///< else: the throughput on arrival
-    float pdf = 0;        ///< Bounce: per solid angle, or a probability where `delta`
-    bool delta = false;   ///< Bounce: one direction of few
-    bool sampled = false; ///< Light: found by sampling lights, rather than by a ray
-    Bounce bounce{};      ///< Bounce: its kind
-    int32_t object = -1;  ///< Surface, and Light of an object
-    int32_t light = -1;   ///< Light
-    uint32_t bounces = 0; ///< Light: between the light and the camera
+    float pdf = 0; ///< Bounce: per solid angle, or a probability where `is_delta(scattering.kind)`
+    bool sampled = false;  ///< Light: found by sampling lights, rather than by a ray
+    Scattering scattering; ///< Bounce
+    int32_t object = -1;   ///< Surface, and Light of an object
+    int32_t light = -1;    ///< Light
+    uint32_t bounces = 0;  ///< Light: between the light and the camera
 };
 
 using PathLog = std::vector<PathEvent>;

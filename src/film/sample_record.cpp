@@ -17,8 +17,8 @@ void SampleRecord::clear_shares() {
     layer_shares_.clear();
 }
 
-void SampleRecord::add_share(Component component, uint16_t layer, Color const& share) {
-    component_shares_[size_t(component)] += share;
+void SampleRecord::add_share(RayKind component, uint16_t layer, Color const& share) {
+    component_shares_[size_t(component) - 1] += share;
     if (!layout_.has(Aov::layers)) return;
     for (LayerShare& s : layer_shares_)
         if (s.layer == layer) {

@@ -21,9 +21,9 @@
 
 namespace weft::film {
 
-/// What paths may do at their first bounce, in the order of Aov::direct_diffuse and so on.
-enum class Component : uint8_t { Diffuse, Specular, Transmission, Volume, Subsurface };
-inline constexpr size_t kComponents = 5;
+/// The components of light by the path's first scattering: each RayKind but the camera's, which is
+/// the order of Aov::direct_diffuse and so on.
+inline constexpr size_t kComponents = kRayKinds - 1;
 
 /// The three Cryptomattes, in the order of Aov::crypto_object and so on.
 inline constexpr size_t kCryptomattes = 3;
@@ -81,7 +81,7 @@ class SampleRecord {
     /// Before what comes over the path's first bounce is added: what takes part in the bounce, each
     /// with its share, per channel. All add up to 1.
     void clear_shares();
-    void add_share(Component component, uint16_t layer, Color const& share);
+    void add_share(RayKind component, uint16_t layer, Color const& share);
     /// Each takes the place of what was said before.
     void set_surface(FirstSurface const& surface) {
         surface_ = surface;

@@ -1,59 +1,71 @@
-// Where paths heed the controls of lights and objects: which objects a ray meets, and what part of
-// the light that arrives counts. With `PathSettings::controls` off, all of it.
+// Where paths heed the controls of lights, of objects and of the integrator: which objects a ray
+// meets, how a material is looked at, and what part of the light that arrives counts. With
+// `PathSettings::controls` off, all of it counts.
 #pragma once
 
 #include "integrator/path_state.h"
 
 namespace weft::integrator {
 
-/// The objects that a ray meets which came about like that.
-inline world::RayMask ray_mask(PathSettings const& settings, world::RayKind kind) {
+/// Returns the objects that a ray of that kind meets.
+inline world::RayMask ray_mask(PathSettings const& settings, RayKind kind) {
     return settings.controls ? world::mask_of(kind) : world::kUnruledMask;
 }
 
-/// Whether the camera sees something else in the object's place.
-inline bool is_matte(PathSettings const& settings, PathState const& path,
-                     world::Object const& object) {
-    return (object.holdout || object.shadow_catcher) && settings.controls &&
-           path.signature.length() == 0;
+/// Returns how materials are looked at after smooth scattering, the last of which may have been
+/// diffuse.
+inline shading::Look look_after(PathSettings const& settings, bool diffused) {
+    return {.secondary = !settings.full_materials,
+            .least_roughness = settings.secondary_roughness,
+            .diffuse_only = diffused && !settings.secondary_specular};
 }
 
-/// How far rays see that leave this object.
+/// Returns how many lights to sample at once where the path, as it got there, scatters next.
+inline uint32_t light_choices(PathSettings const& settings, PathState const& path) {
+    return path.scattered ? 1 : settings.light_samples;
+}
+
+/// Returns whether the path comes from the camera and shows something else in the object's place.
+inline bool is_matte(PathSettings const& settings, PathState const& path,
+                     world::Object const& object) {
+    return (object.holdout || object.shadow_catcher) && settings.controls && path.bounces() == 0;
+}
+
+/// Returns how far rays see that leave the object.
 inline float reach_of(PathSettings const& settings, world::Object const& object) {
     return settings.controls && object.trace_distance > 0 ? object.trace_distance : kInfinity;
 }
 
-/// What a light's controls say, null where no light has any.
-inline lights::LightRules const* rules_of(lights::LightTable const& lights,
-                                          PathSettings const& settings, int32_t light) {
-    return settings.controls && lights.has_controls() && light >= 0 ? &lights[light].rules
-                                                                    : nullptr;
+/// Returns the controls of a light; null where no light has any, and for -1, which is no light.
+inline lights::LightRules const* rules_of(Tracer const& t, int32_t light) {
+    return t.settings.controls && t.lights.has_controls() && light >= 0 ? &t.lights[light].rules
+                                                                        : nullptr;
 }
 
-/// The objects that block a light whose controls are `rules`; 0: none.
+/// Returns the objects that block a light with these controls; 0: none.
 inline world::RayMask shadow_mask(PathSettings const& settings, lights::LightRules const* rules) {
     if (!settings.controls) return world::kUnruledMask;
     return rules ? rules->shadow_mask : world::kShadowMask;
 }
 
-/// The part of a light, `distance` away, that counts where the ray of `path` found it by itself.
-inline float found_factor(lights::LightTable const& lights, PathSettings const& settings,
-                          PathState const& path, int32_t light, float distance) {
-    if (path.caustic && !settings.caustics) return 0;
-    lights::LightRules const* rules = rules_of(lights, settings, light);
+/// Returns the part of a light that counts where the path's ray met it, `distance` away from the
+/// last scattering.
+inline float found_factor(Tracer const& t, PathState const& path, int32_t light, float distance) {
+    if (path.caustic && !t.settings.caustics) return 0;
+    lights::LightRules const* const rules = rules_of(t, light);
     if (!rules) return 1;
-    uint32_t const bounces = path.signature.length();
-    if (bounces > 0 && rules->sampling_alone && (path.pdf > 0 || !rules->shown)) return 0;
-    return rules->factor({path.at.p, path.sets, bounces, path.kind, distance});
+    uint32_t const bounces = path.bounces();
+    LastScattering const& last = path.last;
+    if (bounces > 0 && rules->sampling_alone && (last.pdf > 0 || !rules->shown)) return 0;
+    return rules->factor({last.at.p, last.sets, bounces, last.kind, distance});
 }
 
-/// Hands light to the film, no more of it than a contribution over several bounces may have.
-inline void add_clamped(PathSettings const& settings, film::Contribution c,
-                        film::SampleSink& sink) {
+/// Hands light to the film, no more of it than `indirect_clamp` allows after several bounces.
+inline void add_clamped(Tracer const& t, film::Contribution c) {
     float const most = max_component(c.value);
-    if (most > settings.indirect_clamp && c.bounces() > 1)
-        c.value *= settings.indirect_clamp / most;
-    sink.add(c);
+    if (most > t.settings.indirect_clamp && c.bounces() > 1)
+        c.value *= t.settings.indirect_clamp / most;
+    t.sink.add(c);
 }
 
 } // namespace weft::integrator

@@ -1,195 +1,170 @@
 #include "integrator/direct.h"
 
-#include "base/feature.h"
 #include "integrator/controls.h"
 #include "integrator/media_walk.h"
 #include "integrator/record.h"
-#include "media/phase.h"
 
 namespace weft::integrator {
 
-lobes::LobeValue ScatterPoint::eval(Vec3 const& wi) const {
-    if (bsdf) return bsdf->eval(wo, wi);
-    float const phase = media::henyey_greenstein(dot(wo, wi), g);
-    return {Color(phase), phase};
-}
-
 namespace {
 
-/// Whether a surface light, met by a ray with these media, lies inside of something that hides it.
-bool is_hidden(world::World const& world, int32_t object, media::MediumStack const& media) {
-    if (object < 0 || !world.object(uint32_t(object)).may_be_hidden) return false;
-    return !media.is_visible(uint32_t(object), world.object(uint32_t(object)).rank);
-}
-
-/// A point and what a light sends to it.
+/// A vertex and what a light sends to it.
 struct Connection {
-    ScatterPoint const& point;
+    Vertex const& here;
     lights::LightSample const& light;
-    lights::LightRules const* rules; ///< what of it counts; null: all
-    uint32_t bounces;                ///< the point included
+    lights::LightRules const* rules; ///< the light's controls; null: all of it counts
+    uint32_t bounces;                ///< of the light on its way to the camera, `here` included
     bool alone;                      ///< no ray finds the light
-    bool combine;                    ///< what rays find is weighed against it
+    bool combine;                    ///< what rays find of the light is weighed against it
     bool through;                    ///< it comes from the other side of the surface
 };
 
-Connection connection(lights::Stage const& stage, PathSettings const& settings,
-                      PathState const& path, ScatterPoint const& point,
-                      lights::LightSample const& light) {
-    lights::LightRules const* const rules = rules_of(stage.lights(), settings, light.light);
+Connection connect(Tracer const& t, PathState const& path, Vertex const& here,
+                   lights::LightSample const& light) {
+    lights::LightRules const* const rules = rules_of(t, light.light);
     bool const alone = light.delta || (rules && rules->sampling_alone);
-    bool const through =
-        point.surface && dot(light.wi, point.surface->ng) * dot(point.wo, point.surface->ng) < 0;
-    return {point,  light,
-            rules,  path.signature.length() + (point.bsdf ? 1 : 0),
-            alone,  settings.strategy == scene::Strategy::mis && !alone,
-            through};
+    return {here,
+            light,
+            rules,
+            path.bounces() + 1,
+            alone,
+            t.settings.strategy == scene::Strategy::mis && !alone,
+            here.is_through(light.wi)};
 }
 
-/// The part of light that `value` scatters towards the camera.
-Color counted(Connection const& c, lobes::LobeValue const& value, world::RayKind kind) {
+/// Returns the part of the light that `value` sends on along the path, and that counts.
+Color counted(Connection const& c, lobes::LobeValue const& value, ScatteringKind kind) {
     float const weight = c.combine ? power_heuristic(c.light.pdf, value.pdf) : 1;
     if (!c.rules) return value.f * weight;
-    lights::Arrival const to{c.point.at.p, c.point.sets, c.bounces, kind, c.light.distance};
-    return value.f * (weight * c.rules->factor(to));
+    return value.f * (weight * c.rules->factor({c.here.at.p, c.here.sets, c.bounces,
+                                                ray_kind({kind, c.through}), c.light.distance}));
 }
 
-/// What of the light is scattered towards the camera: by each part of the BSDF where these are told
-/// apart, else all in the first.
-using Scattered = std::array<Color, lobes::kParts.size()>;
+/// What each part of the vertex sends on along the path, of light of radiance 1.
+struct Scattered {
+    std::span<ScatteringKind const> kinds; ///< of the parts
+    std::array<Color, kParts.size()> values{};
 
-Color sum(Scattered const& scattered) {
-    Color all;
-    for (Color const& c : scattered) all += c;
-    return all;
-}
-
-Scattered scatter(PathSettings const& settings, PathState const& path, Connection const& c) {
-    FeatureScope const scope(c.point.bsdf ? Feature::Bsdf : Feature::Media);
-    using lobes::LobeFlags;
-    ScatterPoint const& point = c.point;
-    Vec3 const& wi = c.light.wi;
-    if (!point.bsdf) return {counted(c, point.eval(wi), world::RayKind::volume)};
-    if (!settings.by_part) return {counted(c, point.eval(wi), world::RayKind::diffuse)};
-    Scattered scattered{};
-    for (size_t i = 0; i < scattered.size(); ++i) {
-        LobeFlags const part = lobes::kParts[i];
-        bool const makes_caustic = path.diffused && !any(part, LobeFlags::Diffuse);
-        if (makes_caustic && !settings.caustics) continue;
-        scattered[i] =
-            counted(c, point.bsdf->eval_part(point.wo, wi, part), scattering_kind(part, c.through));
+    Color sum() const {
+        Color all = values[0];
+        for (size_t i = 1; i < kinds.size(); ++i) all += values[i];
+        return all;
     }
-    return scattered;
+};
+
+Scattered scattered(Tracer const& t, PathState const& path, Connection const& c) {
+    Scattered s{c.here.parts(t.settings.by_part)};
+    if (s.kinds.size() == 1) {
+        s.values[0] = counted(c, c.here.eval(c.light.wi), s.kinds[0]);
+        return s;
+    }
+    for (size_t i = 0; i < s.kinds.size(); ++i) {
+        ScatteringKind const kind = s.kinds[i];
+        bool const makes_caustic = path.diffused && !is_diffuse(kind);
+        if (makes_caustic && !t.settings.caustics) continue;
+        s.values[i] = counted(c, c.here.eval_part(c.light.wi, kind), kind);
+    }
+    return s;
 }
 
-/// The part of the light that gets to the point past what `blockers` is the mask of.
-Color transmitted(world::World const& world, PathSettings const& settings, PathState const& path,
-                  Connection const& c, world::RayMask blockers, sampling::SampleStream const& u,
-                  uint32_t vertex) {
+/// Returns whether a surface light lies inside of something that hides it from a ray that ends
+/// there within `media`.
+bool is_hidden(Tracer const& t, int32_t object, media::MediumStack const& media) {
+    if (object < 0 || !t.world.object(uint32_t(object)).may_be_hidden) return false;
+    return !media.is_visible(uint32_t(object), t.world.object(uint32_t(object)).rank);
+}
+
+/// Returns the shadow ray of a connection: from the offset origin to just before the light, whose
+/// own offset was added to the vertex. Its t_max is not positive where the light is out of reach.
+world::Ray shadow_ray(PathState const& path, Connection const& c, world::RayMask blockers) {
     lights::LightSample const& light = c.light;
     world::Ray shadow;
-    shadow.origin = c.point.origin(light.wi);
+    shadow.origin = c.here.origin(light.wi);
     shadow.direction = light.wi;
     shadow.time = path.ray.time;
     shadow.mask = blockers;
-    shadow.t_max = c.point.reach;
-    if (light.distance < kInfinity) {
-        if (light.distance > c.point.reach) return Color(0);
-        // From the offset origin to just before the light, whose own offset was added to `p`.
-        float const moved = dot(shadow.origin - c.point.at.p, light.wi);
-        shadow.t_max = (light.distance - moved) * (1 - 4 * std::numeric_limits<float>::epsilon()) -
-                       light.p_error;
-        if (!(shadow.t_max > 0)) return Color(0);
-    }
-    Color through = shadow.mask ? world.visibility(shadow, !settings.full_materials) : Color(1);
-    if (is_black(through) || !world.has_media()) return through;
+    shadow.t_max = c.here.reach;
+    if (light.distance == kInfinity) return shadow;
+    float const moved = dot(shadow.origin - c.here.at.p, light.wi);
+    shadow.t_max =
+        light.distance > c.here.reach
+            ? 0
+            : (light.distance - moved) * (1 - 4 * std::numeric_limits<float>::epsilon()) -
+                  light.p_error;
+    return shadow;
+}
+
+/// Returns the part of the light that gets to the vertex past the objects in `blockers`.
+Color transmitted(Tracer const& t, PathState const& path, Connection const& c,
+                  world::RayMask blockers) {
+    world::Ray const shadow = shadow_ray(path, c, blockers);
+    if (!(shadow.t_max > 0)) return Color(0);
+    Color through =
+        blockers ? t.world.visibility(shadow, look_after(t.settings, path.diffused)) : Color(1);
+    if (is_black(through) || !t.world.has_media()) return through;
     media::MediumStack media = path.media;
-    if (c.through) cross_boundary(world, *c.point.surface, light.wi, media);
+    if (c.through) cross_boundary(t.world, c.here.surface()->point, c.light.wi, media);
     uint32_t const alpha_seed =
-        world.has_alpha() ? u.walk(sampling::Dimension::Light, vertex).next_uint() : 0;
-    through *= media_transmittance(world, shadow, media, alpha_seed);
-    return is_hidden(world, light.object, media) ? Color(0) : through;
+        t.world.has_alpha() ? t.stream.walk(sampling::Dimension::Light, path.step).next_uint() : 0;
+    through *= media_transmittance(t.world, shadow, media, alpha_seed);
+    return is_hidden(t, c.light.object, media) ? Color(0) : through;
 }
 
-/// Tells the film of light over the connection.
-void add(PathSettings const& settings, PathState const& path, Connection const& c,
-         Scattered const& scattered, Color const& arriving, film::SampleSink& sink) {
-    auto const add_value = [&](Color const& value) {
-        add_clamped(
-            settings,
-            {value * arriving, c.light.light, path.signature, -1,
-             c.point.surface ? film::Found::SampledAtSurface : film::Found::SampledInMedium},
-            sink);
-    };
-    film::SampleRecord* const record = c.point.bsdf ? sink.record() : nullptr;
-    Vec3 const &wo = c.point.wo, &wi = c.light.wi;
-    if (!c.point.bsdf || !settings.by_part) {
-        if (record) record_connection(path, *c.point.bsdf, wo, wi, *record);
-        return add_value(scattered[0]);
-    }
-    for (size_t i = 0; i < scattered.size(); ++i) {
-        if (is_black(scattered[i])) continue;
-        if (record) record_connection(path, *c.point.bsdf, wo, wi, lobes::kParts[i], *record);
-        add_value(scattered[i]);
+/// Tells the film of the light over a connection.
+void add_scattered(Tracer const& t, PathState const& path, Connection const& c,
+                   Scattered const& scattered, Color const& arriving) {
+    for (size_t i = 0; i < scattered.kinds.size(); ++i) {
+        if (is_black(scattered.values[i])) continue;
+        if (t.record()) record_connection(t, path, c.here, c.light.wi, scattered.kinds[i]);
+        add_clamped(t, {scattered.values[i] * arriving, c.light.light, path.signature, -1,
+                        film::Found::BySampling});
     }
 }
 
-/// One light sample at `point`, added to `sink`.
-void add_light(lights::Stage const& stage, PathSettings const& settings, PathState const& path,
-               ScatterPoint const& point, lights::LightSample const& light,
-               sampling::SampleStream const& u, uint32_t vertex, film::SampleSink& sink) {
+/// Adds one light sample at `here`.
+void add_light(Tracer const& t, PathState const& path, Vertex const& here,
+               lights::LightSample const& light) {
     if (is_black(light.radiance)) return;
-    Connection const c = connection(stage, settings, path, point, light);
+    Connection const c = connect(t, path, here, light);
     // What rays can find is left to them where the strategy says so.
-    if (settings.strategy == scene::Strategy::bsdf && !c.alone) return;
-    Scattered const scattered = scatter(settings, path, c);
-    if (is_black(sum(scattered))) return;
-    Color const visible =
-        transmitted(stage.world(), settings, path, c, shadow_mask(settings, c.rules), u, vertex);
+    if (t.settings.strategy == scene::Strategy::bsdf && !c.alone) return;
+    Scattered const to_camera = scattered(t, path, c);
+    if (is_black(to_camera.sum())) return;
+    Color const visible = transmitted(t, path, c, shadow_mask(t.settings, c.rules));
     if (is_black(visible)) return;
-    add(settings, path, c, scattered, path.throughput * light.radiance * visible / light.pdf, sink);
+    add_scattered(t, path, c, to_camera, path.throughput * light.radiance * visible / light.pdf);
 }
 
-/// One light sample at a shadow catcher, told to `record`.
-void catch_light(lights::Stage const& stage, PathSettings const& settings, PathState const& path,
-                 ScatterPoint const& point, lights::LightSample const& light,
-                 sampling::SampleStream const& u, uint32_t vertex, film::SampleRecord& record) {
-    Connection c = connection(stage, settings, path, point, light);
+/// Tells the record of one light sample at a shadow catcher.
+void catch_light(Tracer const& t, PathState const& path, Vertex const& here,
+                 lights::LightSample const& light) {
+    Connection c = connect(t, path, here, light);
     c.combine = false; // no ray helps
-    Scattered const scattered = scatter(settings, path, c);
-    Color const arriving = path.throughput * sum(scattered) * light.radiance / light.pdf;
+    Color const arriving =
+        path.throughput * scattered(t, path, c).sum() * light.radiance / light.pdf;
     if (is_black(arriving)) return;
-    world::RayMask const blockers = shadow_mask(settings, c.rules);
-    auto const past = [&](world::RayMask mask) {
-        return transmitted(stage.world(), settings, path, c, mask, u, vertex);
-    };
-    record.add_caught(arriving * past(blockers ? world::kCatcherMask : 0),
-                      arriving * past(blockers));
+    world::RayMask const blockers = shadow_mask(t.settings, c.rules);
+    t.record()->add_caught(arriving * transmitted(t, path, c, blockers ? world::kCatcherMask : 0),
+                           arriving * transmitted(t, path, c, blockers));
+}
+
+/// Calls f(LightSample) for each light that is chosen at `here`.
+template <class F>
+void for_each_light(Tracer const& t, PathState const& path, Vertex const& here, F&& f) {
+    t.lights.sample(t.world, here.at, t.stream.get3(sampling::Dimension::Light, path.step), f);
 }
 
 } // namespace
 
-void direct(lights::Stage const& stage, PathSettings const& settings, PathState const& path,
-            ScatterPoint const& point, sampling::SampleStream const& u, uint32_t vertex,
-            film::SampleSink& sink) {
-    stage.lights().sample(stage.world(), point.at, u.get3(sampling::Dimension::Light, vertex),
-                          [&](auto const& light) {
-                              add_light(stage, settings, path, point, light, u, vertex, sink);
-                          });
+void direct(Tracer const& t, PathState const& path, Vertex const& here) {
+    if (t.lights.empty() || !here.is_smooth()) return;
+    for_each_light(t, path, here,
+                   [&](lights::LightSample const& light) { add_light(t, path, here, light); });
 }
 
-void catch_shadow(lights::Stage const& stage, PathSettings const& settings, PathState const& path,
-                  ScatterPoint const& point, sampling::SampleStream const& u, uint32_t vertex,
-                  film::SampleRecord& record) {
-    stage.lights().sample(stage.world(), point.at, u.get3(sampling::Dimension::Light, vertex),
-                          [&](auto const& light) {
-                              catch_light(stage, settings, path, point, light, u, vertex, record);
-                          });
-}
-
-float found_weight(scene::Strategy strategy, PathState const& path, float light_pdf) {
-    if (strategy == scene::Strategy::bsdf || path.pdf == 0 || light_pdf == 0) return 1;
-    return strategy == scene::Strategy::nee ? 0 : power_heuristic(path.pdf, light_pdf);
+void catch_shadow(Tracer const& t, PathState const& path, Vertex const& here) {
+    for_each_light(t, path, here,
+                   [&](lights::LightSample const& light) { catch_light(t, path, here, light); });
 }
 
 } // namespace weft::integrator

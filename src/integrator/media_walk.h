@@ -1,11 +1,12 @@
 // How straight lines pass through null boundaries and media.
 #pragma once
 
-#include "integrator/path_state.h"
+#include "media/medium_stack.h"
+#include "world/world.h"
 
 namespace weft::integrator {
 
-/// A straight line through more surfaces than this is taken as lost: only broken geometry has so
+/// A straight line through more surfaces than these is taken for lost: only broken geometry has so
 /// many.
 inline constexpr uint32_t kMaxCrossings = 1000;
 
@@ -13,13 +14,14 @@ inline constexpr uint32_t kMaxCrossings = 1000;
 void cross_boundary(world::World const& world, shading::SurfacePoint const& point,
                     Vec3 const& direction, media::MediumStack& stack);
 
-/// The part of light that the media along a ray let through, where `World::visibility` is not 0:
-/// boundaries of nothing and hidden ones only change the medium, any other that is met takes all
-/// light. `stack` is brought to the ray's end. Partial opacity is decided by `alpha_seed`.
+/// Returns the part of light that the media along a ray let through, and brings `stack` to the
+/// ray's end. Surfaces that cannot be seen only change the medium; any other passable one takes all
+/// light. Only for rays along which `World::visibility` is not 0. `alpha_seed` decides whether
+/// surfaces of partial opacity are there.
 Color media_transmittance(world::World const& world, world::Ray ray, media::MediumStack& stack,
                           uint32_t alpha_seed);
 
-/// What surrounds the point `p`: the closed objects that it lies in, found by a ray from it.
+/// Returns the closed objects that the point `p` lies in, found by a ray from it.
 media::MediumStack media_at(world::World const& world, Vec3 const& p);
 
 } // namespace weft::integrator

@@ -2,15 +2,12 @@
 // (Kajiya 1986; Veach 1997, chapters 8 to 10).
 #pragma once
 
-#include "film/contribution.h"
-#include "integrator/path_state.h"
+#include "integrator/tracer.h"
 
 namespace weft::integrator {
 
-/// Follows one path from the camera and hands every contribution to `sink`. `media`: what the
-/// camera is in.
-void trace_path(lights::Stage const& stage, PathSettings const& settings, world::Ray const& ray,
-                media::MediumStack const& media, sampling::SampleStream const& u,
-                film::SampleSink& sink);
+/// Follows one path from the camera, which is within `media`, and hands all the light that it finds
+/// to the tracer's sink.
+void trace_path(Tracer const& t, world::Ray const& camera_ray, media::MediumStack const& media);
 
 } // namespace weft::integrator

@@ -1,6 +1,7 @@
 #include "integrator/pixel_renderer.h"
 
 #include "base/feature.h"
+#include "integrator/first_hit.h"
 #include "integrator/media_walk.h"
 
 namespace weft::integrator {
@@ -11,7 +12,8 @@ constexpr uint32_t kUnlimited = 1u << 30;
 
 uint32_t depth_limit(int depth) { return depth < 0 ? kUnlimited : uint32_t(depth); }
 
-/// The same paths through the scene as it is.
+/// Returns the settings of the same paths through the scene as it is, without controls and simpler
+/// materials.
 PathSettings without_controls(PathSettings const& s) {
     PathSettings whole{s.strategy, s.depth, s.roulette_depth, s.footprint_scale, true};
     whole.light_samples = s.light_samples;
@@ -36,8 +38,8 @@ PathSettings settings_of(scene::NamedPathIntegrator<Type> const& i) {
 }
 PathSettings settings_of(scene::DirectIntegrator const&) { return {scene::Strategy::nee, 2, 2}; }
 
-/// Returns how the integrator's paths go; of integrators that follow no light nobody asks more
-/// than the default's footprints.
+/// Returns how the integrator's paths go. Integrators that follow no light find the first surface
+/// as paths of the default settings do.
 PathSettings path_settings(scene::Integrator const& integrator) {
     return match(integrator, []<class I>(I const& i) {
         if constexpr (scene::FollowsLight<I>)
@@ -77,9 +79,6 @@ sampling::SamplerKind sampler_kind(scene::Sampler const& sampler) {
                       sampler);
 }
 
-Color as_color(Vec3 const& v) { return {v.x, v.y, v.z}; }
-Color direction_color(Vec3 const& v) { return as_color((v + Vec3(1)) * 0.5f); }
-
 } // namespace
 
 bool combines_strategies(scene::Integrator const& integrator) {
@@ -99,51 +98,6 @@ PixelRenderer::PixelRenderer(lights::Stage const& stage, scene::Integrator const
     unruled_ = without_controls(path_);
 }
 
-Color PixelRenderer::trace(scene::CameraIntegrator const& i, world::Ray const& ray,
-                           uint32_t) const {
-    if (!i.grid) return as_color(ray.direction);
-    // Where the ray meets the plane z = 1.
-    float const t = (1 - ray.origin.z) / ray.direction.z;
-    Vec3 const p = ray.origin + ray.direction * t;
-    auto on_line = [&](float x) { return std::fmod(std::abs(x) * i.grid_frequency, 1.f) < 0.1f; };
-    return on_line(p.x) || on_line(p.y) ? i.grid_color : direction_color(ray.direction);
-}
-
-Color PixelRenderer::trace(scene::AovIntegrator const& i, world::Ray const& ray,
-                           uint32_t alpha_seed) const {
-    world::Hit const hit = world_.intersect(ray, alpha_seed);
-    bool const normals = i.variable == scene::AovVariable::normals;
-    if (!hit) return normals ? Color(0.5f) / i.scale : Color(0);
-    shading::SurfacePoint const point = world_.surface(ray, hit);
-    switch (i.variable) {
-    case scene::AovVariable::normals:
-        return direction_color(point.ns) / i.scale;
-    case scene::AovVariable::distance:
-        return Color(hit.t) / i.scale;
-    case scene::AovVariable::uv:
-        return Color(point.uv.x, point.uv.y, 0) / i.scale;
-    case scene::AovVariable::bvh:
-        return Color(1) / i.scale;
-    }
-    return Color(0);
-}
-
-Color PixelRenderer::trace(scene::NormalIntegrator const& i, world::Ray const& ray,
-                           uint32_t alpha_seed) const {
-    world::Hit const hit = world_.intersect(ray, alpha_seed);
-    if (!hit) return Color(0);
-    Vec3 const n = world_.surface(ray, hit).ns;
-    return i.remap ? direction_color(n) : as_color(n);
-}
-
-Color PixelRenderer::trace(scene::AlbedoIntegrator const&, world::Ray const& ray,
-                           uint32_t alpha_seed) const {
-    world::Hit const hit = world_.intersect(ray, alpha_seed);
-    if (!hit) return Color(0);
-    return world_.shade(world_.surface(ray, hit), -ray.direction, media_)
-        .bsdf.albedo(-ray.direction);
-}
-
 bool PixelRenderer::follows_light() const { return scene::outputs_of(integrator_) != nullptr; }
 
 world::Ray PixelRenderer::camera_ray(Vec2i pixel, sampling::SampleStream const& u) const {
@@ -157,31 +111,34 @@ world::Ray PixelRenderer::camera_ray(Vec2i pixel, sampling::SampleStream const& 
 }
 
 Color PixelRenderer::sample(Vec2i pixel, uint32_t sample, film::SampleRecord* record) const {
-    using sampling::Dimension;
-    sampling::SampleStream const u(sampler_, pixel, sample, seed_);
-    world::Ray const ray = camera_ray(pixel, u);
-    // That of a path's first vertex, so that all pictures of a scene see the same surfaces.
-    uint32_t const alpha_seed = world_.has_alpha() ? u.walk(Dimension::Alpha, 1).next_uint() : 0;
+    sampling::SampleStream const stream(sampler_, pixel, sample, seed_);
+    world::Ray const ray = camera_ray(pixel, stream);
     return match(integrator_, [&]<class I>(I const& i) {
-        if constexpr (!scene::FollowsLight<I>) {
-            return trace(i, ray, alpha_seed);
+        if constexpr (scene::FollowsLight<I>) {
+            return follow_light(ray, stream, record);
         } else {
-            if (record) record->clear();
-            if (record && record->log())
-                record->log()->push_back({.kind = film::PathEvent::Kind::Camera,
-                                          .p = ray.origin,
-                                          .direction = ray.direction,
-                                          .value = Color(1)});
-            film::SampleSink sink(record);
-            trace_path(stage_, path_, ray, media_, u, sink);
-            if (record && record->layout().has(film::Aov::removed)) {
-                film::SampleSink whole;
-                trace_path(stage_, unruled_, ray, media_, u, whole);
-                record->add_removed(whole.beauty() - sink.beauty());
-            }
-            return sink.beauty();
+            film::SampleSink nowhere;
+            return draw(i, Tracer{world_, stage_.lights(), path_, stream, nowhere}, ray, media_);
         }
     });
+}
+
+Color PixelRenderer::follow_light(world::Ray const& ray, sampling::SampleStream const& stream,
+                                  film::SampleRecord* record) const {
+    if (record) record->clear();
+    if (record && record->log())
+        record->log()->push_back({.kind = film::PathEvent::Kind::Camera,
+                                  .p = ray.origin,
+                                  .direction = ray.direction,
+                                  .value = Color(1)});
+    film::SampleSink sink(record);
+    trace_path({world_, stage_.lights(), path_, stream, sink}, ray, media_);
+    if (record && record->layout().has(film::Aov::removed)) {
+        film::SampleSink whole;
+        trace_path({world_, stage_.lights(), unruled_, stream, whole}, ray, media_);
+        record->add_removed(whole.beauty() - sink.beauty());
+    }
+    return sink.beauty();
 }
 
 } // namespace weft::integrator

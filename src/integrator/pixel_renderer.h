@@ -7,7 +7,7 @@
 
 namespace weft::integrator {
 
-/// Whether what light sampling misses is found by rays: see lights::Stage::commit.
+/// Returns whether rays find what light sampling misses: see lights::Stage::commit.
 bool combines_strategies(scene::Integrator const& integrator);
 
 class PixelRenderer {
@@ -17,26 +17,25 @@ class PixelRenderer {
     PixelRenderer(lights::Stage const& stage, scene::Integrator const& integrator,
                   scene::Sampler const& sampler, uint32_t seed, int samples_per_pixel = 0);
 
-    /// The radiance that sample number `sample` of `pixel` sees: a pure function of its arguments,
-    /// the seed and, where textures are filtered by footprints, the samples per pixel.
+    /// Returns the radiance that sample number `sample` of `pixel` sees: a pure function of its
+    /// arguments, the seed and, where textures are filtered by footprints, the samples per pixel.
     /// `record`, where given, is cleared and then holds all else that the sample says.
     Color sample(Vec2i pixel, uint32_t sample, film::SampleRecord* record = nullptr) const;
 
-    /// Whether samples are radiance, rather than some property of the scene: those are not
-    /// negative, and only they fill records.
+    /// Returns whether samples are radiance, rather than some property of the scene. Radiance is
+    /// not negative, and only such samples fill records.
     bool follows_light() const;
 
   private:
     world::Ray camera_ray(Vec2i pixel, sampling::SampleStream const& u) const;
-    Color trace(scene::CameraIntegrator const& i, world::Ray const& ray, uint32_t alpha_seed) const;
-    Color trace(scene::AovIntegrator const& i, world::Ray const& ray, uint32_t alpha_seed) const;
-    Color trace(scene::NormalIntegrator const& i, world::Ray const& ray, uint32_t alpha_seed) const;
-    Color trace(scene::AlbedoIntegrator const& i, world::Ray const& ray, uint32_t alpha_seed) const;
+    /// Follows a path, and where the record asks for it a second one that heeds no controls.
+    Color follow_light(world::Ray const& ray, sampling::SampleStream const& stream,
+                       film::SampleRecord* record) const;
 
     lights::Stage const& stage_;
     world::World const& world_; ///< of the stage
     scene::Integrator integrator_;
-    PathSettings path_, unruled_; ///< the second without controls and simpler materials
+    PathSettings path_, unruled_; ///< unruled_: without controls and simpler materials
     sampling::SamplerKind sampler_;
     uint32_t seed_;
     film::Filter filter_;

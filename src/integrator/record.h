@@ -1,32 +1,24 @@
-// What a path says to the record of its sample beside its contributions: the surface that it met
-// first, the guides of denoisers, and how its first bounce is shared by kinds of lobes. None of it
-// is called where a picture is beauty alone.
+// What a path tells the record of its sample beside the light that it finds: the surface that it
+// met first, the guides of denoisers, how its first bounce is shared by kinds of lobes, and the log
+// of a replay. Only to be called where the tracer has a record.
 #pragma once
 
 #include "film/sample_record.h"
-#include "integrator/path_state.h"
+#include "integrator/vertex.h"
 
 namespace weft::integrator {
 
-/// The path met a surface, and has not scattered there yet.
-void record_surface(world::World const& world, PathState const& path,
-                    shading::SurfacePoint const& point, shading::Shading const& shading,
-                    film::SampleRecord& record);
+/// The path reached `here`, and was not scattered there yet.
+void record_vertex(Tracer const& t, PathState const& path, Vertex const& here);
 
-/// `path` is about to scatter by `sample` at a surface.
-void record_bounce(PathSettings const& settings, PathState const& path, lobes::Bsdf const& bsdf,
-                   Vec3 const& wo, lobes::BsdfSample const& sample, bool see_through,
-                   film::SampleRecord& record);
+/// The path is about to scatter at a surface by `sample`.
+void record_bounce(Tracer const& t, PathState const& path, SurfaceVertex const& surface,
+                   lobes::BsdfSample const& sample);
 
-/// Light sampling connects the surface that the path is at to a light towards `wi`.
-void record_connection(PathState const& path, lobes::Bsdf const& bsdf, Vec3 const& wo,
-                       Vec3 const& wi, film::SampleRecord& record);
-/// The same where only the lobes of one part do (Bsdf::eval_part).
-void record_connection(PathState const& path, lobes::Bsdf const& bsdf, Vec3 const& wo,
-                       Vec3 const& wi, lobes::LobeFlags part, film::SampleRecord& record);
-
-/// The path scattered in a medium.
-void record_volume(PathState const& path, film::SampleRecord& record);
+/// Light sampling connects `here` to a light towards `wi`. `part`: the lobes that take part, where
+/// parts are told apart.
+void record_connection(Tracer const& t, PathState const& path, Vertex const& here, Vec3 const& wi,
+                       ScatteringKind part);
 
 /// The path met nothing; `radiance` is the background's.
 void record_background(PathState const& path, Color const& radiance, film::SampleRecord& record);

@@ -101,7 +101,7 @@ void LightBuilder::link_lights() {
                 world_.sets().find(light.controls.shadowed_by, "shadowedBy", where))
             if (rules.shadow_mask != 0) rules.shadow_mask = world_.shadow_mask(by);
         if (auto const* area = std::get_if<AreaLight>(&light.kind))
-            for (world::RayKind kind : world::kAllRayKinds)
+            for (RayKind kind : kAllRayKinds)
                 if (!world::is_visible(world_.object(area->object).visibility, kind))
                     rules.hide_from(kind);
     }

@@ -105,7 +105,7 @@ bool LightLints::lets_light_through(world::Ray const& ray, world::Hit const& hit
     if (o.has_alpha || o.is_see_through || o.is_null || o.has_interior) return true;
     auto const point = world_.surface(ray, hit);
     auto const shading = world_.shade(point, -ray.direction, world_.outside());
-    return any(shading.bsdf.flags(), lobes::LobeFlags::Transmission);
+    return any(shading.bsdf.sides(), lobes::Sides::Transmission);
 }
 
 /// The opaque object whose inside is all that can be seen from `p`; UINT32_MAX if there is none.
@@ -215,8 +215,7 @@ void LightLints::look_at_mirrors() {
         for (int k = 0; k < picks; ++k) {
             auto const s =
                 shading.bsdf.sample(-ray.direction, {0.5f, 0.5f, (float(k) + 0.5f) / picks});
-            mirrored += s.pdf > 0 && any(s.flags, lobes::LobeFlags::Delta) &&
-                        !any(s.flags, lobes::LobeFlags::Straight);
+            mirrored += s.pdf > 0 && s.scattering.kind == ScatteringKind::Specular;
         }
         if (2 * mirrored > picks) ++seen[hit.object];
     }

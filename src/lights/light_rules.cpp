@@ -34,9 +34,9 @@ LightRules::LightRules(scene::LightControls const& c, LightBounds const& bounds,
     }
 }
 
-void LightRules::hide_from(world::RayKind kind) {
+void LightRules::hide_from(RayKind kind) {
     in_use = true;
-    by_kind |= kind != world::RayKind::camera;
+    by_kind |= kind != RayKind::camera;
     by_ray_kind_[size_t(kind)] = 0;
 }
 

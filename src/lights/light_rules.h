@@ -15,11 +15,11 @@ namespace weft::lights {
 
 /// Light on its way to where it is scattered, or seen.
 struct Arrival {
-    Vec3 p{0, 0, 0};      ///< the place
-    uint64_t sets = 0;    ///< that the object there belongs to
-    uint32_t bounces = 0; ///< from the camera on, this place included; 0: seen itself
-    world::RayKind kind = world::RayKind::camera; ///< how the place scatters it
-    float distance = 0;                           ///< from the light
+    Vec3 p{0, 0, 0};                ///< the place
+    uint64_t sets = 0;              ///< that the object there belongs to
+    uint32_t bounces = 0;           ///< from the camera on, this place included; 0: seen itself
+    RayKind kind = RayKind::camera; ///< how the place scatters it
+    float distance = 0;             ///< from the light
 };
 
 /// Whether light sampling has to find all of the light, even where strategies are combined.
@@ -40,7 +40,7 @@ struct LightRules {
 
     /// What part of the light counts.
     float factor(Arrival const& to) const {
-        if (to.bounces == 0) return by_ray_kind_[size_t(world::RayKind::camera)];
+        if (to.bounces == 0) return by_ray_kind_[size_t(RayKind::camera)];
         bool const indirect = to.bounces > 1;
         if (to.bounces > most_bounces_ || !lit.accept(to.sets)) return 0;
         if (to.distance > max_distance_) return 0;
@@ -48,7 +48,7 @@ struct LightRules {
         return (indirect ? indirect_ : direct_) * by_ray_kind_[size_t(to.kind)];
     }
     /// Objects tell their lights which rays do not meet them.
-    void hide_from(world::RayKind kind);
+    void hide_from(RayKind kind);
 
   private:
     /// On a facing surface, roughly.
@@ -57,7 +57,7 @@ struct LightRules {
                             : intensity_ / std::max(length_squared(p - centre_), radius_squared_);
     }
 
-    std::array<float, world::kRayKinds> by_ray_kind_{1, 1, 1, 1, 1, 1};
+    std::array<float, kRayKinds> by_ray_kind_{1, 1, 1, 1, 1, 1};
     float direct_ = 1, indirect_ = 1;
     uint32_t most_bounces_ = UINT32_MAX;
     float max_distance_ = kInfinity, min_contribution_ = 0;

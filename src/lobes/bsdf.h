@@ -65,22 +65,12 @@ inline float width_of(Lobe const& lobe) {
 
 struct BsdfSample {
     Vec3 wi{0, 0, 0};
-    Color weight;        ///< f |cos wi| / pdf
-    float pdf = 0;       ///< per solid angle, or a probability for Delta; 0 means failure
-    LobeFlags flags{};   ///< the side of wi and the kind of the lobe picked
-    float eta_scale = 1; ///< eta^2 of the lobe picked if it transmitted, else 1
-    uint16_t layer = 0;  ///< of the lobe picked
+    Color weight;          ///< f |cos wi| / pdf
+    float pdf = 0;         ///< per solid angle, or a probability for Delta; 0 means failure
+    Scattering scattering; ///< the kind of the lobe picked, and the side of wi
+    float eta_scale = 1;   ///< eta^2 of the lobe picked if it transmitted, else 1
+    uint16_t layer = 0;    ///< of the lobe picked
 };
-
-/// The parts of a BSDF that light controls tell apart, and the flags that all lobes of a part have,
-/// and none of another.
-inline constexpr std::array kParts{LobeFlags::Diffuse, LobeFlags::Diffuse | LobeFlags::Subsurface,
-                                   LobeFlags::Glossy};
-/// Whether a lobe of these flags belongs to the part that has the others.
-constexpr bool in_part(LobeFlags flags, LobeFlags part) {
-    constexpr LobeFlags told_apart = LobeFlags::Diffuse | LobeFlags::Subsurface;
-    return (flags & told_apart) == (part & told_apart);
-}
 
 class Bsdf {
   public:
@@ -123,8 +113,7 @@ class Bsdf {
         Lobe const& lobe = *std::construct_at(
             &lobes_[count_++], Lobe{weight, 1, uint8_t(current_frame_), layer, LobeVariant(kind)});
         LobeFlags const flags = flags_of(lobe);
-        flags_ |= flags;
-        if (!any(flags, LobeFlags::Delta)) smooth_flags_ |= flags;
+        add_sides(flags);
         return true;
     }
 
@@ -155,9 +144,9 @@ class Bsdf {
     /// Whether wi is on wo's side of the surface itself.
     bool reflects(Vec3 const& wi) const { return dot(wi, geometric_normal_) > 0; }
 
-    /// The part of `eval` that a lobe with the flags `part` belongs to, see kParts. Which side of
-    /// the surface it is on, wi says.
-    LobeValue eval_part(Vec3 const& wo, Vec3 const& wi, LobeFlags part) const;
+    /// The part of `eval` that lobes of the kind `part` belong to, see kParts. Which side of the
+    /// surface it is on, wi says.
+    LobeValue eval_part(Vec3 const& wo, Vec3 const& wi, ScatteringKind part) const;
 
     /// Picks a lobe by u.z, samples it by what is left of u; u in [0, 1)^3. With `by_part`, value
     /// and density are those of `eval_part` of the lobe picked alone, as if each part were
@@ -179,15 +168,15 @@ class Bsdf {
     Color straight() const {
         Color sum;
         for (int i = 0; i < count_; ++i)
-            if (any(flags_of(lobes_[i]), LobeFlags::Straight)) sum += lobes_[i].weight;
+            if (flags_of(lobes_[i]).kind == ScatteringKind::Straight) sum += lobes_[i].weight;
         return sum;
     }
 
     int size() const { return count_; }
     Lobe const& operator[](int i) const { return lobes_[i]; }
-    LobeFlags flags() const { return flags_; } ///< the union over all lobes
+    Sides sides() const { return sides_; } ///< the union over all lobes
     /// Whether `eval` can be other than black, so that light sampling makes sense.
-    bool has_smooth() const { return smooth_flags_ != LobeFlags::None; }
+    bool has_smooth() const { return smooth_sides_ != Sides::None; }
 
   private:
     /// Neighbours in the list that lie around one frame.
@@ -201,6 +190,11 @@ class Bsdf {
         return {first, end, frames_[lobes_[first].frame]};
     }
 
+    void add_sides(LobeFlags const& flags) {
+        sides_ |= flags.sides;
+        if (!is_delta(flags.kind)) smooth_sides_ |= flags.sides;
+    }
+
     Color lobe_albedo(Lobe const& lobe, Vec3 const& wo) const {
         Vec3 const local = frames_[lobe.frame].to_local(wo);
         return match(lobe.kind, [&](auto const& l) { return l.albedo(local); });
@@ -210,7 +204,7 @@ class Bsdf {
     struct Picked {
         Vec3 wi;
         float eta_scale;
-        LobeFlags flags;
+        ScatteringKind kind;
         Color delta_weight{};
         float delta_probability = 0;
     };
@@ -219,10 +213,10 @@ class Bsdf {
     static Picked sample_lobe(L const& lobe, Vec3 const& wo, Vec3 const& u) {
         if constexpr (DeltaLobe<L>) {
             DeltaSample const s = lobe.sample(wo, u);
-            return {s.wi, s.eta_scale, lobe.flags(), s.weight, s.probability};
+            return {s.wi, s.eta_scale, lobe.flags().kind, s.weight, s.probability};
         } else {
             Vec3 const wi = lobe.sample(wo, u);
-            return {wi, eta_scale_towards(lobe, wi), lobe.flags()};
+            return {wi, eta_scale_towards(lobe, wi), lobe.flags().kind};
         }
     }
 
@@ -252,8 +246,8 @@ class Bsdf {
     }
 
     LobeValue eval_local(Span const& span, Vec3 const& wo, Vec3 const& wi) const {
-        LobeFlags const side = wi.z > 0 ? LobeFlags::Reflection : LobeFlags::Transmission;
-        if (!any(smooth_flags_, side)) return {};
+        Sides const side = wi.z > 0 ? Sides::Reflection : Sides::Transmission;
+        if (!any(smooth_sides_, side)) return {};
         LobeValue sum;
         for (int i = span.begin; i < span.end; ++i) {
             Lobe const& lobe = lobes_[i];
@@ -274,13 +268,13 @@ class Bsdf {
         current_frame_ = o.current_frame_;
         std::uninitialized_copy_n(o.lobes_, o.count_, lobes_);
         count_ = o.count_;
-        flags_ = o.flags_;
-        smooth_flags_ = o.smooth_flags_;
+        sides_ = o.sides_;
+        smooth_sides_ = o.smooth_sides_;
     }
 
     int count_ = 0, frame_count_ = 1, current_frame_ = 0;
-    LobeFlags flags_{}, smooth_flags_{};
-    Vec3 geometric_normal_; ///< on wo's side
+    Sides sides_{}, smooth_sides_{}; ///< of all lobes, and of those that `eval` adds up
+    Vec3 geometric_normal_;          ///< on wo's side
     union {
         Frame frames_[frame_capacity]; ///< the first frame_count_ are alive
     };
@@ -302,10 +296,10 @@ inline void Bsdf::prepare(Vec3 const& wo) {
     for (int i = 0; i < count_; ++i) lobes_[i].pick /= total;
 }
 
-inline LobeValue Bsdf::eval_part(Vec3 const& wo, Vec3 const& wi, LobeFlags part) const {
+inline LobeValue Bsdf::eval_part(Vec3 const& wo, Vec3 const& wi, ScatteringKind part) const {
     LobeValue sum;
     for (int i = 0; i < count_; ++i) {
-        if (!in_part(flags_of(lobes_[i]), part)) continue;
+        if (!same_part(flags_of(lobes_[i]).kind, part)) continue;
         LobeValue const v = eval_folded({i, i + 1, frames_[lobes_[i].frame]}, wo, wi);
         sum.f += v.f;
         sum.pdf += v.pdf;
@@ -314,17 +308,15 @@ inline LobeValue Bsdf::eval_part(Vec3 const& wo, Vec3 const& wi, LobeFlags part)
 }
 
 inline void Bsdf::keep_diffuse() {
-    constexpr LobeFlags kept = LobeFlags::Diffuse | LobeFlags::Straight;
     int count = 0;
     float total = 0;
-    flags_ = smooth_flags_ = LobeFlags::None;
+    sides_ = smooth_sides_ = Sides::None;
     for (int i = 0; i < count_; ++i) {
         LobeFlags const flags = flags_of(lobes_[i]);
-        if (!any(flags, kept)) continue;
+        if (!is_diffuse(flags.kind) && flags.kind != ScatteringKind::Straight) continue;
         lobes_[count++] = lobes_[i];
         total += lobes_[i].pick;
-        flags_ |= flags;
-        if (!any(flags, LobeFlags::Delta)) smooth_flags_ |= flags;
+        add_sides(flags);
     }
     count_ = count;
     for (int i = 0; i < count_; ++i) lobes_[i].pick /= total;
@@ -348,14 +340,13 @@ inline BsdfSample Bsdf::sample(Vec3 const& wo, Vec3 const& u, bool by_part) cons
         if (!same_sides(wi, p.wi)) return {}; // a failure: the zero vector is on no side
     }
 
-    LobeFlags const other = p.wi.z > 0 ? LobeFlags::Transmission : LobeFlags::Reflection;
-    BsdfSample result{wi, {}, 0, p.flags & ~other, p.eta_scale, lobe.layer};
-    if (any(p.flags, LobeFlags::Delta)) {
+    BsdfSample result{wi, {}, 0, {p.kind, !(p.wi.z > 0)}, p.eta_scale, lobe.layer};
+    if (is_delta(p.kind)) {
         result.weight = lobe.weight * p.delta_weight * (1 / lobe.pick);
         result.pdf = lobe.pick * p.delta_probability;
         return result;
     }
-    LobeValue const v = by_part ? eval_part(wo, wi, p.flags) : eval(wo, wi);
+    LobeValue const v = by_part ? eval_part(wo, wi, p.kind) : eval(wo, wi);
     if (!(v.pdf > 0)) return {};
     result.weight = v.f / v.pdf;
     result.pdf = v.pdf;

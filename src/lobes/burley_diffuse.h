@@ -31,7 +31,7 @@ inline float cosine_at(float coordinate) { return square(coordinate); }
 struct BurleyDiffuse {
     float roughness = 0.5f; ///< in [0, 1]
 
-    static constexpr LobeFlags flags() { return LobeFlags::Reflection | LobeFlags::Diffuse; }
+    static constexpr LobeFlags flags() { return {ScatteringKind::Diffuse, Sides::Reflection}; }
     static constexpr float width() { return 1; }
     static constexpr float eta_scale() { return 1; }
 

@@ -38,7 +38,7 @@ class Clearcoat {
         : alpha2_(square(std::min(std::max(alpha, min_alpha), max_alpha))), f0_(fresnel_f0(ior)),
           log_alpha2_(std::log(alpha2_)) {}
 
-    static constexpr LobeFlags flags() { return LobeFlags::Reflection | LobeFlags::Glossy; }
+    static constexpr LobeFlags flags() { return {ScatteringKind::Glossy, Sides::Reflection}; }
     /// The alpha of D, though half of its facets lean by more than its root.
     float width() const { return std::sqrt(alpha2_); }
     static constexpr float eta_scale() { return 1; }

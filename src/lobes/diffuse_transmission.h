@@ -9,7 +9,7 @@
 namespace weft::lobes {
 
 struct DiffuseTransmission {
-    static constexpr LobeFlags flags() { return LobeFlags::Transmission | LobeFlags::Diffuse; }
+    static constexpr LobeFlags flags() { return {ScatteringKind::Diffuse, Sides::Transmission}; }
     static constexpr float width() { return 1; }
     static constexpr float eta_scale() { return 1; }
     LobeValue eval(Vec3 const&, Vec3 const& wi) const {

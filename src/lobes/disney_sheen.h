@@ -16,7 +16,7 @@ float disney_sheen_albedo(float cos_o);
 inline constexpr int disney_sheen_cosines = 24;
 
 struct DisneySheen {
-    static constexpr LobeFlags flags() { return LobeFlags::Reflection | LobeFlags::Diffuse; }
+    static constexpr LobeFlags flags() { return {ScatteringKind::Diffuse, Sides::Reflection}; }
     static constexpr float width() { return 1; }
     static constexpr float eta_scale() { return 1; }
     LobeValue eval(Vec3 const& wo, Vec3 const& wi) const {

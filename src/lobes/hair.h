@@ -52,9 +52,7 @@ class Hair {
   public:
     Hair(HairParameters const& parameters, float h);
 
-    static constexpr LobeFlags flags() {
-        return LobeFlags::Reflection | LobeFlags::Transmission | LobeFlags::Glossy;
-    }
+    static constexpr LobeFlags flags() { return {ScatteringKind::Glossy, Sides::Both}; }
     /// However smooth, the round fibre sends light all around.
     static constexpr float width() { return 1; }
     static constexpr float eta_scale() { return 1; }

@@ -8,7 +8,7 @@
 namespace weft::lobes {
 
 struct Lambert {
-    static constexpr LobeFlags flags() { return LobeFlags::Reflection | LobeFlags::Diffuse; }
+    static constexpr LobeFlags flags() { return {ScatteringKind::Diffuse, Sides::Reflection}; }
     static constexpr float width() { return 1; }
     static constexpr float eta_scale() { return 1; }
     LobeValue eval(Vec3 const&, Vec3 const& wi) const {

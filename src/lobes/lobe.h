@@ -21,33 +21,23 @@
 #include <cstdint>
 
 #include "base/color.h"
+#include "base/scattering.h"
 #include "base/vec.h"
 
 namespace weft::lobes {
 
-/// Which sides a lobe scatters to, and how narrowly. A set.
-enum class LobeFlags : uint8_t {
-    None = 0,
-    Reflection = 1,
-    Transmission = 2,
-    Diffuse = 4,
-    Glossy = 8,
-    Delta = 16,
-    Straight = 32,   ///< goes on as if there were no surface
-    Subsurface = 64, ///< Diffuse, too: from below the surface
-};
+/// The sides of a surface that light is scattered to. A set.
+enum class Sides : uint8_t { None = 0, Reflection = 1, Transmission = 2, Both = 3 };
 
-constexpr LobeFlags operator|(LobeFlags a, LobeFlags b) {
-    return LobeFlags(uint8_t(a) | uint8_t(b));
-}
-constexpr LobeFlags operator&(LobeFlags a, LobeFlags b) {
-    return LobeFlags(uint8_t(a) & uint8_t(b));
-}
-constexpr LobeFlags operator~(LobeFlags a) { return LobeFlags(~uint8_t(a) & 127); }
-constexpr LobeFlags& operator|=(LobeFlags& a, LobeFlags b) { return a = a | b; }
-constexpr LobeFlags& operator&=(LobeFlags& a, LobeFlags b) { return a = a & b; }
-/// Whether the sets meet.
-constexpr bool any(LobeFlags set, LobeFlags of) { return (set & of) != LobeFlags::None; }
+constexpr Sides& operator|=(Sides& a, Sides b) { return a = Sides(uint8_t(a) | uint8_t(b)); }
+/// Returns whether the sets meet.
+constexpr bool any(Sides set, Sides of) { return (uint8_t(set) & uint8_t(of)) != 0; }
+
+/// What a lobe does, wherever it is.
+struct LobeFlags {
+    ScatteringKind kind;
+    Sides sides;
+};
 
 struct LobeValue {
     Color f;       ///< BSDF times |cos wi|

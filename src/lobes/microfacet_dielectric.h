@@ -33,9 +33,7 @@ class MicrofacetDielectric {
           reflectance_(reflectance), transmittance_(transmittance), options_(options),
           compensated_(compensated) {}
 
-    static constexpr LobeFlags flags() {
-        return LobeFlags::Reflection | LobeFlags::Transmission | LobeFlags::Glossy;
-    }
+    static constexpr LobeFlags flags() { return {ScatteringKind::Glossy, Sides::Both}; }
     float width() const { return widest_alpha(distribution_); }
     float eta_scale() const { return square(eta_); }
     Distribution const& distribution() const { return distribution_; }

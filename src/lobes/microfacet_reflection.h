@@ -23,7 +23,7 @@ struct MicrofacetReflection {
     Fresnel fresnel{};
     bool compensated = false; ///< for multiple scattering
 
-    static constexpr LobeFlags flags() { return LobeFlags::Reflection | LobeFlags::Glossy; }
+    static constexpr LobeFlags flags() { return {ScatteringKind::Glossy, Sides::Reflection}; }
     float width() const { return widest_alpha(distribution); }
     static constexpr float eta_scale() { return 1; }
     LobeValue eval(Vec3 const& wo, Vec3 const& wi) const {

@@ -26,7 +26,7 @@ class OrenNayar {
         : rho_(rho), roughness_(roughness), scale_(1 / (1 + kC1 * roughness)),
           uniform_(std::pow(roughness, 0.1f)) {}
 
-    static constexpr LobeFlags flags() { return LobeFlags::Reflection | LobeFlags::Diffuse; }
+    static constexpr LobeFlags flags() { return {ScatteringKind::Diffuse, Sides::Reflection}; }
     static constexpr float width() { return 1; }
     static constexpr float eta_scale() { return 1; }
 

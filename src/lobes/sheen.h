@@ -37,7 +37,7 @@ inline float cosine_at(float coordinate) { return square(coordinate); }
 struct Sheen {
     float roughness = 0.5f; ///< in [0, 1]; 0 vanishes
 
-    static constexpr LobeFlags flags() { return LobeFlags::Reflection | LobeFlags::Diffuse; }
+    static constexpr LobeFlags flags() { return {ScatteringKind::Diffuse, Sides::Reflection}; }
     static constexpr float width() { return 1; }
     static constexpr float eta_scale() { return 1; }
 

@@ -14,9 +14,7 @@ struct SpecularDielectric {
     Color transmittance{1.f};
     BoundaryOptions options{};
 
-    static constexpr LobeFlags flags() {
-        return LobeFlags::Reflection | LobeFlags::Transmission | LobeFlags::Delta;
-    }
+    static constexpr LobeFlags flags() { return {ScatteringKind::Specular, Sides::Both}; }
     static constexpr float width() { return 0; }
     DeltaSample sample(Vec3 const& wo, Vec3 const& u) const {
         float cos_t;

@@ -9,7 +9,7 @@ namespace weft::lobes {
 struct SpecularReflection {
     Fresnel fresnel{};
 
-    static constexpr LobeFlags flags() { return LobeFlags::Reflection | LobeFlags::Delta; }
+    static constexpr LobeFlags flags() { return {ScatteringKind::Specular, Sides::Reflection}; }
     static constexpr float width() { return 0; }
     DeltaSample sample(Vec3 const& wo, Vec3 const&) const {
         return {.wi = {-wo.x, -wo.y, wo.z}, .weight = albedo(wo), .probability = 1};

@@ -10,7 +10,7 @@
 namespace weft::lobes {
 
 struct SubsurfaceDiffuse : BurleyDiffuse {
-    static constexpr LobeFlags flags() { return BurleyDiffuse::flags() | LobeFlags::Subsurface; }
+    static constexpr LobeFlags flags() { return {ScatteringKind::Subsurface, Sides::Reflection}; }
 };
 
 static_assert(SmoothLobe<SubsurfaceDiffuse>);

@@ -7,9 +7,7 @@
 namespace weft::lobes {
 
 struct Transparent {
-    static constexpr LobeFlags flags() {
-        return LobeFlags::Transmission | LobeFlags::Delta | LobeFlags::Straight;
-    }
+    static constexpr LobeFlags flags() { return {ScatteringKind::Straight, Sides::Transmission}; }
     static constexpr float width() { return 0; }
     DeltaSample sample(Vec3 const& wo, Vec3 const&) const {
         return {.wi = -wo, .weight = Color(1), .probability = 1};

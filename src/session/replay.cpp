@@ -14,31 +14,6 @@ using film::PathEvent;
 std::string text(Vec3 const& v) { return fmt::format("({:g}, {:g}, {:g})", v.x, v.y, v.z); }
 std::string text(Color const& c) { return fmt::format("{:g} {:g} {:g}", c.r, c.g, c.b); }
 
-char const* bounce_text(film::Bounce bounce) {
-    using film::Bounce;
-    switch (bounce) {
-    case Bounce::Diffuse:
-        return "diffuse reflection";
-    case Bounce::Glossy:
-        return "glossy reflection";
-    case Bounce::Specular:
-        return "mirror reflection";
-    case Bounce::DiffuseTransmission:
-        return "diffuse transmission";
-    case Bounce::GlossyTransmission:
-        return "glossy transmission";
-    case Bounce::SpecularTransmission:
-        return "clear transmission";
-    case Bounce::Volume:
-        return "scattering in a medium";
-    case Bounce::Subsurface:
-        return "scattering below the surface";
-    case Bounce::None:
-        break;
-    }
-    return "nothing";
-}
-
 std::string light_text(lights::Stage const& stage, PathEvent const& e) {
     world::World const& world = stage.world();
     int32_t object = e.object;
@@ -66,9 +41,9 @@ std::string event_text(lights::Stage const& stage, PathEvent const& e, int& vert
         return fmt::format("{} scattering in a medium at {}\n  throughput {}\n", ++vertex,
                            text(e.p), text(e.value));
     case PathEvent::Kind::Bounce:
-        return fmt::format("  goes on by {} towards {}: times {}, {} {:g}\n", bounce_text(e.bounce),
-                           text(e.direction), text(e.value), e.delta ? "probability" : "density",
-                           e.pdf);
+        return fmt::format("  goes on by {} towards {}: times {}, {} {:g}\n", text_of(e.scattering),
+                           text(e.direction), text(e.value),
+                           is_delta(e.scattering.kind) ? "probability" : "density", e.pdf);
     case PathEvent::Kind::Straight:
         return fmt::format("  goes straight on: times {}\n", text(e.value));
     case PathEvent::Kind::Background:

@@ -31,7 +31,7 @@ struct DisneyBuilder {
     DisneyBuilder(LobeBuilder const& builder, scene::Disney const& material, Values const& values)
         : b(builder), m(material), at(values), base(unit(at(m.base_color))),
           specular_tint(unit(at(m.specular_tint))),
-          roughness(std::max(unit(at(m.roughness)), b.view.least_roughness)), ior(at(m.ior)),
+          roughness(std::max(unit(at(m.roughness)), b.view.look.least_roughness)), ior(at(m.ior)),
           around(b.frame_around(at(m.normal))) {
         float const anisotropic = at(m.anisotropic);
         auto const [x, y] = stretched_alphas(roughness, anisotropic);

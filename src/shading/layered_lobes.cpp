@@ -29,7 +29,7 @@ void LobeBuilder::operator()(scene::Layered const& m, Values const& at) const {
     float uncovered = 1;
     for (scene::Layer const& layer : *layers) {
         bool const last = &layer == &layers->back();
-        if (!last && m.secondary == scene::SecondaryRays::base && view.secondary) continue;
+        if (!last && m.secondary == scene::SecondaryRays::base && view.look.secondary) continue;
         float const opacity = unit(at(layer.opacity));
         build_part(layer.bsdf, Color(uncovered * opacity), frame_around(at(layer.normal)),
                    label_of(size_t(&layer - layers->data())));
@@ -39,7 +39,7 @@ void LobeBuilder::operator()(scene::Layered const& m, Values const& at) const {
 
 void LobeBuilder::operator()(scene::Coat const& m, Values const& at) const {
     float const w = unit(at(m.weight));
-    if (w == 0 || (m.secondary == scene::SecondaryRays::base && view.secondary)) {
+    if (w == 0 || (m.secondary == scene::SecondaryRays::base && view.look.secondary)) {
         build_part(m.bsdf, Color(1), frame, label);
         return;
     }
@@ -57,14 +57,14 @@ void LobeBuilder::operator()(scene::Coat const& m, Values const& at) const {
 }
 
 void LobeBuilder::operator()(scene::Mix const& m, Values const& at) const {
-    bool const first_alone = m.secondary == scene::SecondaryRays::base && view.secondary;
+    bool const first_alone = m.secondary == scene::SecondaryRays::base && view.look.secondary;
     float const amount = first_alone ? 0 : unit(at(m.amount));
     build_part(m.bsdfs[0], Color(1 - amount), frame, label_of(0));
     build_part(m.bsdfs[1], Color(amount), frame, label_of(1));
 }
 
 void LobeBuilder::operator()(scene::Secondary const& m, Values const&) const {
-    build_part(m.bsdfs[view.secondary ? 1 : 0], Color(1), frame, label);
+    build_part(m.bsdfs[view.look.secondary ? 1 : 0], Color(1), frame, label);
 }
 
 } // namespace weft::shading

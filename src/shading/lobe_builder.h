@@ -62,7 +62,7 @@ struct LobeBuilder {
     }
     /// The width of facets for a material's roughness, not below what the view asks for.
     float alpha(float roughness) const {
-        return alpha_of(std::max(roughness, view.least_roughness));
+        return alpha_of(std::max(roughness, view.look.least_roughness));
     }
     /// Far index over near index.
     float relative_ior(float ior) const {

@@ -14,7 +14,7 @@ void LobeBuilder::operator()(scene::Diffuse const& m, Values const& at) const {
 }
 
 void LobeBuilder::operator()(scene::Conductor const& m, Values const& at) const {
-    if (view.least_roughness > 0) {
+    if (view.look.least_roughness > 0) {
         float const alpha = this->alpha(0);
         add(at(m.reflectance), lobes::GgxReflection{{alpha, alpha}});
     } else {
@@ -33,7 +33,7 @@ void LobeBuilder::operator()(scene::RoughConductor const& m, Values const& at) c
 void LobeBuilder::operator()(scene::Dielectric const& m, Values const& at) const {
     float const ior = at(m.ior), eta = relative_ior(ior), alpha = this->alpha(0);
     Color const r = at(m.reflectance), t = at(m.transmittance);
-    if (view.least_roughness > 0 && eta != 1)
+    if (view.look.least_roughness > 0 && eta != 1)
         add(Color(1), lobes::GgxDielectric({alpha, alpha}, eta, r, t));
     else
         add(Color(1), lobes::SpecularDielectric{eta, r, t});
@@ -123,7 +123,7 @@ struct MicrofacetBuilder {
 
 void LobeBuilder::operator()(scene::Microfacet const& m, Values const& at) const {
     Frame around = frame_around(at(m.normal));
-    float const roughness = std::max(at(m.roughness), view.least_roughness),
+    float const roughness = std::max(at(m.roughness), view.look.least_roughness),
                 anisotropic = at(m.anisotropic);
     if (anisotropic > 0) around = around.turned(2 * kPi * at(m.anisotropic_rotation));
     to.bsdf.use_frame(around);

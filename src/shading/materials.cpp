@@ -175,6 +175,7 @@ void Materials::shade(scene::MaterialId id, SurfacePoint const& point, View cons
                       Shading& to) const {
     LobeBuilder{*this, point, view, to, to.bsdf.frame()}.build(id);
     to.bsdf.prepare(view.wo);
+    if (view.look.diffuse_only) to.bsdf.keep_diffuse();
 }
 
 Color Materials::straight(scene::MaterialId id, SurfacePoint const& point, View const& view) const {

@@ -13,14 +13,20 @@
 
 namespace weft::shading {
 
-/// How a point is looked at.
-struct View {
-    Vec3 wo{0, 0, 1};          ///< unit
-    Vec3 ng{0, 0, 1};          ///< unit geometric normal on wo's side
-    bool entering = true;      ///< wo is on the front side, so that transmission goes in
-    float ior_outside = 1;     ///< of what surrounds the object here
-    bool secondary = false;    ///< after a bounce that scatters: `secondary` materials apply
+/// How much of a material is looked at; by default all of it.
+struct Look {
+    bool secondary = false;    ///< after a scattering: simpler stand-ins take a material's place
     float least_roughness = 0; ///< of all that reflects or lets through
+    bool diffuse_only = false; ///< nothing mirrors or is glossy; light still goes straight on
+};
+
+/// From where a point is looked at, and how.
+struct View {
+    Vec3 wo{0, 0, 1};      ///< unit
+    Vec3 ng{0, 0, 1};      ///< unit geometric normal on wo's side
+    bool entering = true;  ///< wo is on the front side, so that transmission goes in
+    float ior_outside = 1; ///< of what surrounds the object here
+    Look look;
 };
 
 struct Shading {
@@ -57,7 +63,7 @@ class Materials {
     Needs needs(scene::MaterialId id) const;
     /// Whether it looks at the direction in which u grows.
     bool uses_tangents(scene::MaterialId id) const;
-    /// Adds emission and lobes at `point`, prepares the lobes, and sets the index inside.
+    /// Adds the lobes at `point` and prepares them, adds emission, and sets the index inside.
     void shade(scene::MaterialId id, SurfacePoint const& point, View const& view,
                Shading& to) const;
 

@@ -16,7 +16,7 @@ struct FilterContext {
     World const* world;
     uint32_t seed = 0;
     bool passable_only = false, solid = false; ///< of closest hits
-    bool secondary = false;                    ///< of shadows: after a bounce that scatters
+    shading::Look look;                        ///< of shadows: at what lets light straight through
     Color visibility{1};
 
     EdgeHits met;
@@ -96,8 +96,8 @@ void filter_shadow(RTCFilterFunctionNArguments const* args) {
     Object const& o = context.world->object(hit.object);
     Corners const corners = o.kind == ObjectKind::Mesh ? corners_at(hit) : kAllCorners;
     if (!o.is_passable() && !context.repeated(hit, corners)) {
-        context.visibility *= context.world->transmittance(hit, hit_normal(args),
-                                                           ray_direction(args), context.secondary);
+        context.visibility *=
+            context.world->transmittance(hit, hit_normal(args), ray_direction(args), context.look);
         context.met.add(hit, corners, !is_black(context.visibility));
     }
     if (!is_black(context.visibility)) args->valid[0] = 0;
@@ -267,14 +267,14 @@ Hit World::closest(Ray const& ray, Target target, uint32_t alpha_seed) const {
     return hit;
 }
 
-Color World::visibility(Ray const& ray, bool secondary) const {
+Color World::visibility(Ray const& ray, shading::Look const& look) const {
     FeatureScope const scope(Feature::ShadowRays);
     if (recorder_) [[unlikely]]
         recorder_->record(ray, true);
     FilterContext context;
     init_context(&context.query);
     context.world = this;
-    context.secondary = secondary;
+    context.look = look;
     RTCRay query = to_kernel(ray);
     embree_occluded(embree_scene_, &context.query, &query);
     return query.tfar < 0 ? Color(0) : context.visibility;

@@ -1,16 +1,9 @@
-// How a ray came about, and which objects it meets.
+// Which objects a ray meets, by how it came about.
 #pragma once
 
-#include <array>
-#include <cstdint>
+#include "base/scattering.h"
 
 namespace weft::world {
-
-enum class RayKind : uint8_t { camera, diffuse, glossy, transmission, volume, subsurface };
-inline constexpr uint32_t kRayKinds = 6;
-inline constexpr std::array<RayKind, kRayKinds> kAllRayKinds{RayKind::camera, RayKind::diffuse,
-                                                             RayKind::glossy, RayKind::transmission,
-                                                             RayKind::volume, RayKind::subsurface};
 
 /// What of an object's mask has to be set for a ray to meet it.
 using RayMask = uint32_t;

@@ -202,14 +202,14 @@ shading::SurfacePoint World::filtered_point(Hit const& hit, Vec3 const& ng,
 }
 
 Color World::transmittance(Hit const& hit, Vec3 const& ng, Vec3 const& direction,
-                           bool secondary) const {
+                           shading::Look const& look) const {
     Object const& o = objects_[hit.object];
     float const there = o.has_alpha ? opacity(hit, ng, direction) : 1;
     if (!o.is_see_through || there == 0) return Color(1 - there);
     FeatureScope const scope(Feature::Shading);
     shading::SurfacePoint const point = filtered_point(hit, ng, direction);
     return Color(1 - there) +
-           there * materials_.straight(o.material, point, view_of(point, point.wo, 1, secondary));
+           there * materials_.straight(o.material, point, view_of(point, point.wo, 1, look));
 }
 
 Color World::emission(shading::SurfacePoint const& point, Vec3 const& wo) const {
@@ -225,19 +225,17 @@ Color World::emission(shading::SurfacePoint const& point, Vec3 const& wo) const 
 }
 
 shading::View World::view_of(shading::SurfacePoint const& point, Vec3 const& wo, float ior_outside,
-                             bool secondary) const {
+                             shading::Look const& look) const {
     bool const entering = dot(point.ng, wo) > 0;
-    return {wo, entering ? point.ng : -point.ng, entering, ior_outside, secondary};
+    return {wo, entering ? point.ng : -point.ng, entering, ior_outside, look};
 }
 
 shading::Shading World::shade(shading::SurfacePoint const& point, Vec3 const& wo,
-                              media::MediumStack const& stack, bool secondary,
-                              float least_roughness) const {
+                              media::MediumStack const& stack, shading::Look const& look) const {
     FeatureScope const scope(Feature::Shading);
     Object const& o = objects_[point.object];
-    shading::View view =
-        view_of(point, wo, o.has_interior ? stack.current_without(point.object).ior : 1, secondary);
-    view.least_roughness = least_roughness;
+    shading::View const view =
+        view_of(point, wo, o.has_interior ? stack.current_without(point.object).ior : 1, look);
     shading::Shading shading(lobes::Bsdf(shading::shading_frame(point, point.ns, view), view.ng));
     shading.emission = emission(point, wo);
     if (o.material) materials_.shade(o.material, point, view, shading);

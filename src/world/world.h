@@ -123,15 +123,13 @@ class World {
     Hit intersect_passable(Ray const& ray, uint32_t alpha_seed) const;
     /// The part of light that gets through the surfaces along the ray up to t_max: 0 behind an
     /// opaque surface, the product of (1 - opacity) + opacity * (what the material lets straight
-    /// through) elsewhere. Passable boundaries are not seen. `secondary` as for `shade`.
-    Color visibility(Ray const& ray, bool secondary = false) const;
+    /// through) elsewhere. Passable boundaries are not seen.
+    Color visibility(Ray const& ray, shading::Look const& look = {}) const;
 
     shading::SurfacePoint surface(Ray const& ray, Hit const& hit) const;
-    /// Emission and lobes at `point` towards unit `wo`; `secondary`: after a bounce that scatters.
-    /// `least_roughness` of all that it reflects and lets through.
+    /// Returns emission and lobes at `point` towards unit `wo`, seen from within `stack`.
     shading::Shading shade(shading::SurfacePoint const& point, Vec3 const& wo,
-                           media::MediumStack const& stack, bool secondary = false,
-                           float least_roughness = 0) const;
+                           media::MediumStack const& stack, shading::Look const& look = {}) const;
     /// The point of an object that is nearest to `p` on it: of the triangle `primitive`, where it
     /// is a mesh. Seen from unit `wo`.
     shading::SurfacePoint point_near(uint32_t object, uint32_t primitive, Vec3 const& p,
@@ -185,7 +183,7 @@ class World {
     float opacity(Hit const& hit, Vec3 const& ng, Vec3 const& direction) const;
     /// The part of light that goes straight through at a hit, seen likewise.
     Color transmittance(Hit const& hit, Vec3 const& ng, Vec3 const& direction,
-                        bool secondary) const;
+                        shading::Look const& look) const;
     /// Whether those corners (bits) of a mesh's triangle `a` are corners of triangle `b`, too.
     bool has_corners(uint32_t object, uint32_t a, uint8_t corners, uint32_t b) const;
     /// A point of a mesh or a disk at `hit`, or of a sphere in direction `local` from its centre,
@@ -203,7 +201,7 @@ class World {
     Hit closest(Ray const& ray, Target target, uint32_t alpha_seed) const;
 
     shading::View view_of(shading::SurfacePoint const& point, Vec3 const& wo, float ior_outside,
-                          bool secondary) const;
+                          shading::Look const& look) const;
     void mesh_point(Object const& object, Hit const& hit, shading::SurfacePoint& point) const;
     void sphere_point(Object const& object, Vec3 const& local, shading::SurfacePoint& point) const;
     void disk_point(Object const& object, Hit const& hit, shading::SurfacePoint& point) const;

@@ -133,10 +133,10 @@ Film made_up_film(Region const& region, Region const& part, uint32_t from, uint3
                 // Dyadic numbers, whose sums have no rounding.
                 auto const number = [&] { return float(rng.next_uint() % 1024) / 64; };
                 sink.add({Color(number()), int32_t(rng.next_uint() % 3), path});
-                path.append(Bounce::Diffuse);
-                record.add_share(Component::Diffuse, 0, Color(0.5f));
-                record.add_share(Component::Specular, 1, Color(0.25f));
-                record.add_share(Component::Transmission, 0, Color(0.25f));
+                path.append({ScatteringKind::Diffuse});
+                record.add_share(RayKind::diffuse, 0, Color(0.5f));
+                record.add_share(RayKind::glossy, 1, Color(0.25f));
+                record.add_share(RayKind::transmission, 0, Color(0.25f));
                 sink.add({Color(number()), -1, path, int32_t(rng.next_uint() % 3)});
                 if (rng.next() < 0.7f)
                     record.set_surface({rng.next_uint() % 3,
@@ -234,18 +234,21 @@ TEST(Film, WithoutSurfacesHasTheEmptyDepth) {
 TEST(PathSignature, TellsTheFirstSixteenBounces) {
     PathSignature path;
     EXPECT_EQ(path.length(), 0u);
-    EXPECT_EQ(path[0], Bounce::None);
-    for (uint32_t i = 0; i < 20; ++i) path.append(Bounce(1 + i % 7));
+    EXPECT_FALSE(path[0]);
+    auto const scattering = [](uint32_t i) {
+        return Scattering{ScatteringKind(i % 6), i % 4 == 1};
+    };
+    for (uint32_t i = 0; i < 20; ++i) path.append(scattering(i));
     EXPECT_EQ(path.length(), 20u);
-    for (uint32_t i = 0; i < 16; ++i) EXPECT_EQ(path[i], Bounce(1 + i % 7));
-    for (uint32_t i : {16u, 19u, 64u, 1u << 30}) EXPECT_EQ(path[i], Bounce::None);
+    for (uint32_t i = 0; i < 16; ++i) EXPECT_EQ(path[i], scattering(i));
+    for (uint32_t i : {16u, 19u, 64u, 1u << 30}) EXPECT_FALSE(path[i]);
 }
 
 TEST(SampleSink, AddsUp) {
     SampleSink sink;
     PathSignature path;
     sink.add({Color(1, 2, 3), 0, path});
-    path.append(Bounce::Diffuse);
+    path.append({ScatteringKind::Diffuse});
     sink.add({Color(0.5f), -1, path});
     EXPECT_EQ(sink.beauty(), Color(1.5f, 2.5f, 3.5f));
 }
@@ -268,13 +271,12 @@ TEST(SampleRecord, TellsLightApart) {
     PathSignature path;
     sink.add({Color(1), -1, path, 1});                      // an emissive object
     sink.add({Color(2), 0, path, -1, Found::InBackground}); // the background
-    record.add_share(Component::Diffuse, 0, Color(0.25f));
-    record.add_share(Component::Specular, 1, Color(0.75f));
-    sink.add(
-        {Color(4), 1, path, -1, Found::SampledAtSurface}); // a light sampled at the first surface
-    path.append(Bounce::Glossy);
+    record.add_share(RayKind::diffuse, 0, Color(0.25f));
+    record.add_share(RayKind::glossy, 1, Color(0.75f));
+    sink.add({Color(4), 1, path, -1, Found::BySampling}); // a light sampled at the first surface
+    path.append({ScatteringKind::Glossy});
     sink.add({Color(8), 2, path, 2});
-    sink.add({Color(16), 2, path, -1, Found::SampledAtSurface});
+    sink.add({Color(16), 2, path, -1, Found::BySampling});
     record.add_removed(Color(32));
     ASSERT_TRUE(record.finish());
     EXPECT_EQ(first_value(record, Aov::emission), 1);

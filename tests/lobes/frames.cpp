@@ -103,7 +103,7 @@ TEST(Frames, FoldingKeepsAllPower) {
                 BsdfSample const s = bsdf.sample(wo, rng.next3());
                 sampled.push_back(s.pdf > 0 ? double(s.weight.g) : 0);
                 if (s.pdf > 0) {
-                    EXPECT_EQ(any(s.flags, LobeFlags::Transmission), s.wi.z < 0);
+                    EXPECT_EQ(s.scattering.through, s.wi.z < 0);
                 }
                 Vec3 const wi = square_to_sphere(rng.next2());
                 double const f = double(bsdf.eval(wo, wi).f.g) * 4 * M_PI;

@@ -14,14 +14,13 @@ namespace {
 TEST(Width, IsZeroForDeltaLobesAndOneForDiffuseOnes) {
     auto const check = [](auto const& c) {
         float const width = c.lobe.width();
-        LobeFlags const kind =
-            c.lobe.flags() & (LobeFlags::Delta | LobeFlags::Diffuse | LobeFlags::Glossy);
-        if (kind == LobeFlags::Delta) {
+        ScatteringKind const kind = c.lobe.flags().kind;
+        if (is_delta(kind)) {
             EXPECT_EQ(width, 0) << c.name;
-        } else if (kind == LobeFlags::Diffuse) {
+        } else if (is_diffuse(kind)) {
             EXPECT_EQ(width, 1) << c.name;
         } else {
-            EXPECT_EQ(kind, LobeFlags::Glossy) << c.name;
+            EXPECT_EQ(kind, ScatteringKind::Glossy) << c.name;
             EXPECT_GT(width, 0) << c.name;
             EXPECT_LE(width, 1) << c.name;
         }
@@ -51,7 +50,7 @@ float facet_slope(Vec3 const& wi, float eta) {
 TEST(Width, TellsHowFarGlossyLobesSpread) {
     int tested = 0;
     for_each_configuration<true>([&]<class L>(Configuration<L> const& c) {
-        if (std::is_same_v<L, Hair> || !any(c.lobe.flags(), LobeFlags::Glossy)) return;
+        if (std::is_same_v<L, Hair> || c.lobe.flags().kind != ScatteringKind::Glossy) return;
         Vec3 const wo(0, 0, 1);
         Rng rng(hash_bytes(c.name));
         std::vector<float> slopes;

@@ -46,7 +46,7 @@ class MaterialBench {
         point.wo = wo;
         point.uv = {0.5f, 0.3f};
         bool const entering = wo.z > 0;
-        shading::View const view{wo, {0, 0, entering ? 1.f : -1.f}, entering, 1, secondary};
+        shading::View const view{wo, {0, 0, entering ? 1.f : -1.f}, entering, 1, {secondary}};
         shading::Shading shading(lobes::Bsdf(shading_frame(point, point.ns, view), view.ng));
         materials_.shade(id, point, view, shading);
         return shading;
@@ -102,7 +102,7 @@ inline Estimate sampled_power(lobes::Bsdf const& bsdf, Vec3 const& wo, int sampl
         lobes::BsdfSample const s = bsdf.sample(wo, rng.next3());
         if (!(s.pdf > 0))
             sums.add(Color(0));
-        else if (any(s.flags, lobes::LobeFlags::Delta))
+        else if (is_delta(s.scattering.kind))
             sums.add(s.weight * s.eta_scale);
         else
             sums.add(power(bsdf, wo, s.wi) * (1 / s.pdf));

@@ -114,8 +114,8 @@ TEST(Visibility, AsksWhatSecondaryRaysSee) {
         make_scene(kCamera + R"(<instance><shape type="rectangle"/><bsdf type="secondary">
             <bsdf type="transparent" transmittance="0.5"/><bsdf type="diffuse"/></bsdf></instance>)");
     Ray const ray{{0.3f, 0.2f, -5}, {0, 0, 1}};
-    EXPECT_EQ(scene.world->visibility(ray, false), Color(0.5f));
-    EXPECT_EQ(scene.world->visibility(ray, true), Color(0));
+    EXPECT_EQ(scene.world->visibility(ray), Color(0.5f));
+    EXPECT_EQ(scene.world->visibility(ray, {.secondary = true}), Color(0));
 }
 
 } // namespace

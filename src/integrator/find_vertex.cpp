@@ -1,0 +1,111 @@
+#include "integrator/find_vertex.h"
+
+#include "integrator/controls.h"
+#include "integrator/direct.h"
+#include "integrator/found_light.h"
+#include "integrator/media_walk.h"
+#include "integrator/record.h"
+
+namespace weft::integrator {
+
+namespace {
+
+using sampling::Dimension;
+
+world::Hit intersect(Tracer const& t, PathState const& path) {
+    uint32_t const alpha_seed =
+        t.world.has_alpha() ? t.stream.walk(Dimension::Alpha, path.step).next_uint() : 0;
+    return t.world.intersect(path.ray, alpha_seed);
+}
+
+/// Samples how far the path flies through the medium that it is in. Returns the distance to where
+/// it scatters; `limit` where it gets that far.
+float fly(Tracer const& t, PathState& path, float limit) {
+    int32_t const medium = path.media.current().medium;
+    if (medium < 0) return limit;
+    FeatureScope const scope(Feature::Media);
+    media::MediumSample const s =
+        media::sample_distance(t.world.medium(medium), path.throughput, limit,
+                               t.stream.get2(Dimension::Distance, path.step));
+    path.throughput *= s.weight;
+    return s.scattered ? s.distance : limit;
+}
+
+/// Returns whether the object's boundary cannot be seen: it only encloses a medium, or lies inside
+/// of another object that is there in its place.
+bool is_unseen(PathState const& path, uint32_t index, world::Object const& object) {
+    return object.is_null || (object.has_interior && !path.media.is_visible(index, object.rank));
+}
+
+/// Lets the camera see through a hole that the object cuts: black, with the alpha of a background.
+/// What the material lets straight through does not belong to the hole. Returns whether there is
+/// any such light.
+bool hold_out(Tracer const& t, PathState& path, SurfaceVertex const& surface) {
+    Color const through =
+        surface.object.is_see_through ? path.throughput * surface.bsdf().straight() : Color(0);
+    path.held_out += average(path.throughput - through);
+    path.throughput = through;
+    film::SampleRecord* const record = t.record();
+    if (!is_black(through)) {
+        if (record) record->set_alpha(1 - path.held_out);
+        return true;
+    }
+    if (record) record_background(path, Color(0), *record);
+    return false;
+}
+
+/// Shows the camera what is to be seen in a matte object's place. Returns whether the path goes on
+/// behind it.
+bool show_matte(Tracer const& t, PathState& path, Vertex const& here) {
+    if (here.surface()->object.holdout) return hold_out(t, path, *here.surface());
+    if (t.record() && path.bounces() + 1 < t.settings.depth) catch_shadow(t, path, here);
+    return true;
+}
+
+} // namespace
+
+bool find_vertex(Tracer const& t, PathState& path, Vertex& here) {
+    for (++path.step; path.step <= path.bounces() + 1 + kMaxCrossings; ++path.step) {
+        world::Hit const hit = intersect(t, path);
+        add_lamps(t, path, hit.t);
+        if (float const distance = fly(t, path, hit.t); distance < hit.t) {
+            here.move_into_medium(t, path, distance);
+            return true;
+        }
+        if (!hit) {
+            add_background(t, path);
+            return false;
+        }
+        world::Object const& object = t.world.object(hit.object);
+        if (is_unseen(path, hit.object, object)) {
+            pass_through(t, path, t.world.surface(path.ray, hit));
+            continue;
+        }
+        SurfaceVertex const& surface = here.move_to_surface(t, path, hit);
+        if (!is_matte(t.settings, path, object)) return true;
+        if (!show_matte(t, path, here)) return false;
+        pass_through(t, path, surface.point, false);
+    }
+    return false;
+}
+
+void pass_through(Tracer const& t, PathState& path, shading::SurfacePoint const& point, bool into) {
+    world::Ray& ray = path.ray;
+    if (into) cross_boundary(t.world, point, ray.direction, path.media);
+    ray.origin = shading::offset_origin(point, ray.direction);
+    ray.t_min = world::Ray().t_min;
+    ray.t_max -= point.t;
+    ray.cone.width = ray.cone.width_at(point.t);
+}
+
+SurfaceVertex const* find_first_surface(Tracer const& t, PathState& path, Vertex& here) {
+    while (find_vertex(t, path, here)) {
+        SurfaceVertex const* const surface = here.surface();
+        if (!surface || !surface->object.is_see_through) return surface;
+        if (!surface->passes(here.sample(t.stream, path.step, t.settings.by_part))) return surface;
+        pass_through(t, path, surface->point);
+    }
+    return nullptr;
+}
+
+} // namespace weft::integrator

@@ -1,0 +1,29 @@
+#include "integrator/vertex.h"
+
+#include "integrator/controls.h"
+
+namespace weft::integrator {
+
+SurfaceVertex const& Vertex::move_to_surface(Tracer const& tracer, PathState const& path,
+                                             world::Hit const& hit) {
+    SurfaceVertex const& surface = place_.emplace<SurfaceVertex>(tracer.world, path, hit);
+    at = {surface.point.p, surface.bsdf().frame().n, light_choices(tracer.settings, path)};
+    wo = -path.ray.direction;
+    t = surface.point.t;
+    sets = surface.object.sets;
+    reach = reach_of(tracer.settings, surface.object);
+    return surface;
+}
+
+void Vertex::move_into_medium(Tracer const& tracer, PathState const& path, float distance) {
+    media::Interior const& inside = path.media.current();
+    place_.emplace<MediumVertex>(tracer.world.medium(inside.medium).g);
+    at = {path.ray.origin + path.ray.direction * distance, Vec3(0),
+          light_choices(tracer.settings, path)};
+    wo = -path.ray.direction;
+    t = distance;
+    sets = inside.object != UINT32_MAX ? tracer.world.object(inside.object).sets : 0;
+    reach = kInfinity;
+}
+
+} // namespace weft::integrator

@@ -1,0 +1,136 @@
+// Where a path scatters: at a point on a surface, or at a point in a medium.
+//
+// Both answer the same questions (how much light goes from wi to wo, and where may it come from),
+// so light sampling and the loop treat them alike. A path reaches one by flying through a medium
+// or by meeting a surface (find_vertex.h).
+#pragma once
+
+#include <array>
+#include <span>
+#include <variant>
+
+#include "base/feature.h"
+#include "integrator/path_state.h"
+#include "media/phase.h"
+
+namespace weft::integrator {
+
+/// A point in a medium.
+class MediumVertex {
+  public:
+    MediumVertex() = default;
+    /// `g`: asymmetry of Henyey and Greenstein's phase function.
+    explicit MediumVertex(float g) : g_(g) {}
+
+    /// A medium has one part.
+    static constexpr std::array kKinds{ScatteringKind::Medium};
+
+    lobes::LobeValue eval(Vec3 const& wo, Vec3 const& wi) const {
+        FeatureScope const scope(Feature::Media);
+        float const phase = media::henyey_greenstein(dot(wo, wi), g_);
+        return {Color(phase), phase};
+    }
+    lobes::BsdfSample sample(Vec3 const& wo, sampling::SampleStream const& stream,
+                             uint32_t step) const {
+        FeatureScope const scope(Feature::Media);
+        Vec2 const u = stream.get2(sampling::Dimension::Phase, step);
+        Vec3 const wi = media::sample_henyey_greenstein(wo, g_, u);
+        return {.wi = wi,
+                .weight = Color(1),
+                .pdf = media::henyey_greenstein(dot(wo, wi), g_),
+                .scattering = {ScatteringKind::Medium}};
+    }
+
+  private:
+    float g_ = 0;
+};
+
+/// A point on a surface. It stays where it was made: its BSDF is large.
+struct SurfaceVertex {
+    world::Object const& object;
+    shading::SurfacePoint point;
+    shading::Shading shading; ///< seen from where the path comes from
+
+    SurfaceVertex(world::World const& world, PathState const& path, world::Hit const& hit)
+        : object(world.object(hit.object)), point(world.surface(path.ray, hit)),
+          shading(world.shade(point, -path.ray.direction, path.media, path.look)) {}
+    SurfaceVertex(SurfaceVertex const&) = delete;
+
+    lobes::Bsdf const& bsdf() const { return shading.bsdf; }
+    /// Returns whether light that comes from `wi` passes through the surface on its way to `wo`.
+    bool is_through(Vec3 const& wo, Vec3 const& wi) const {
+        return dot(wi, point.ng) * dot(wo, point.ng) < 0;
+    }
+    /// Returns whether the path passes by the sample `s` as if there were no surface.
+    bool passes(lobes::BsdfSample const& s) const {
+        return object.is_see_through && s.scattering.kind == ScatteringKind::Straight;
+    }
+};
+
+class Vertex {
+  public:
+    lights::LitPoint at;     ///< for light sampling
+    Vec3 wo{0, 0, 1};        ///< unit, to where the path comes from
+    float t = 0;             ///< length of the path's last straight piece
+    uint64_t sets = 0;       ///< of instances that the vertex belongs to, as bits
+    float reach = kInfinity; ///< rays that leave the vertex see nothing that is further away
+
+    /// Moves the vertex to where the path's ray meets a surface.
+    SurfaceVertex const& move_to_surface(Tracer const& t, PathState const& path,
+                                         world::Hit const& hit);
+    /// Moves the vertex to `distance` along the path's ray, in the medium that it is in.
+    void move_into_medium(Tracer const& t, PathState const& path, float distance);
+
+    /// Returns the surface that the vertex is on; null in a medium.
+    SurfaceVertex const* surface() const { return std::get_if<SurfaceVertex>(&place_); }
+
+    /// Returns the part of the light from unit `wi` that goes to `wo`, and the density with which
+    /// `sample` gives `wi`.
+    lobes::LobeValue eval(Vec3 const& wi) const {
+        SurfaceVertex const* const s = surface();
+        if (!s) return std::get_if<MediumVertex>(&place_)->eval(wo, wi);
+        FeatureScope const scope(Feature::Bsdf);
+        return s->bsdf().eval(wo, wi);
+    }
+    /// Returns the kinds of the parts that `eval_part` tells apart. Where `by_part` is false a
+    /// surface has one, of any kind.
+    std::span<ScatteringKind const> parts(bool by_part) const {
+        if (!surface()) return MediumVertex::kKinds;
+        return std::span(kParts).first(by_part ? kParts.size() : 1);
+    }
+    /// Returns the part of `eval` of that kind.
+    lobes::LobeValue eval_part(Vec3 const& wi, ScatteringKind part) const {
+        SurfaceVertex const* const s = surface();
+        if (!s) return eval(wi);
+        FeatureScope const scope(Feature::Bsdf);
+        return s->bsdf().eval_part(wo, wi, part);
+    }
+    /// Samples where the light that goes to `wo` comes from. `by_part`: see Bsdf::sample.
+    lobes::BsdfSample sample(sampling::SampleStream const& stream, uint32_t step,
+                             bool by_part) const {
+        SurfaceVertex const* const s = surface();
+        if (!s) return std::get_if<MediumVertex>(&place_)->sample(wo, stream, step);
+        FeatureScope const scope(Feature::Bsdf);
+        return s->bsdf().sample(wo, stream.get3(sampling::Dimension::Bsdf, step), by_part);
+    }
+
+    /// Returns where a ray towards `wi` starts.
+    Vec3 origin(Vec3 const& wi) const {
+        SurfaceVertex const* const s = surface();
+        return s ? shading::offset_origin(s->point, wi) : at.p;
+    }
+    /// Returns whether light from `wi` comes from the other side of a surface.
+    bool is_through(Vec3 const& wi) const {
+        SurfaceVertex const* const s = surface();
+        return s && s->is_through(wo, wi);
+    }
+    /// Returns whether `eval` may be other than 0.
+    bool is_smooth() const { return !surface() || surface()->bsdf().has_smooth(); }
+    /// Returns whether the path may go on as if there were no vertex.
+    bool is_see_through() const { return surface() && surface()->object.is_see_through; }
+
+  private:
+    std::variant<MediumVertex, SurfaceVertex> place_;
+};
+
+} // namespace weft::integrator
