@@ -10,9 +10,8 @@ namespace {
 
 using image::Texel;
 
-/// A coordinate in texels, such that its floor is an int: those too large for one wrap around at a
-/// multiple that does no harm.
-float bounded(float x) { return std::min(std::max(x, -1e9f), 1e9f); }
+/// A coordinate in texels whose floor is an int. Those beyond a billion, and NaN, become a billion.
+float bounded(float x) { return std::min(std::max(-1e9f, x), 1e9f); } // NaN: max gives the first
 
 /// i modulo size, in [0, size). In double precision, which is exact here: an integer division costs
 /// more than the lookup.
