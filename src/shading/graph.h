@@ -46,7 +46,7 @@ struct ImageOp {
 /// Images side by side over uv; black where there is none.
 struct UdimOp {
     scene::Input<scene::SurfaceUv> texcoord;
-    std::array<int16_t, 100> tile{}; ///< by u + 10 v: 1 + index into `lookups`; 0: none
+    std::vector<int16_t> tile; ///< 100, by u + 10 v: 1 + index into `lookups`; 0: none
     std::vector<ImageLookup> lookups;
 };
 
@@ -131,6 +131,7 @@ struct Instructions<std::variant<Node...>> {
 } // namespace detail
 
 using Instruction = detail::Instructions<scene::Texture>::type;
+static_assert(sizeof(Instruction) <= 136); // what is large and rare belongs behind a pointer
 
 /// The result of a node: a register of its program or, where `reg` is -1, a literal.
 struct Operand {

@@ -166,7 +166,7 @@ Operand GraphCompiler::translate(scene::ImageTexture const& node, scene::ValueTy
     };
     if (!udim)
         return finish(ImageOp{texcoord, lookup(node.filename.resource)}, needs, connected, type);
-    UdimOp op{texcoord, {}, {}};
+    UdimOp op{texcoord, std::vector<int16_t>(100), {}};
     for (scene::UdimTile const& tile : scene_.udims[size_t(node.filename.resource)]) {
         op.lookups.push_back(lookup(tile.image));
         op.tile[size_t(tile.number - 1001)] = int16_t(op.lookups.size());
