@@ -32,7 +32,8 @@ struct Tables<AshikhminShirley> {
     static constexpr auto const& dielectric = albedo_tables::ashikhmin_shirley_dielectric;
 };
 
-float mean_square_alpha(float x, float y) { return std::sqrt(0.5f * (x * x + y * y)); }
+/// The root mean square of the alphas; exactly x where both are.
+float mean_square_alpha(float x, float y) { return x == y ? x : std::sqrt(0.5f * (x * x + y * y)); }
 
 /// Mostly the width of normals along the view's azimuth, which shadows what is transmitted.
 float alpha_along(float x, float y, Vec3 const& wo) {
@@ -94,8 +95,8 @@ ReflectionMoments reflection_moments(D const& d, Vec3 const& wo) {
     };
     ReflectionMoments m{moment(0), moment(1), moment(2), moment(3), moment(4)};
     if (d.alpha_x != d.alpha_y) {
-        float const ratio = white_albedo(d, wo) / m.white;
-        m.white *= ratio;
+        float const white = white_albedo(d, wo), ratio = white / m.white;
+        m.white = white;
         m.schlick *= ratio;
         m.edge *= ratio;
     }

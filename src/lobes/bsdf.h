@@ -48,10 +48,12 @@ using LobeVariant =
                  Transparent, Sheen, DisneySheen, Clearcoat, Hair, SubsurfaceDiffuse>;
 
 struct Lobe {
-    Color weight;       ///< multiplies the kind's value
-    float pick = 1;     ///< probability that `Bsdf::sample` picks it
-    uint8_t frame = 0;  ///< index of the frame it lies around
-    uint16_t layer = 0; ///< of the material, for pictures by layer; 0: of none that has a name
+    Color weight;           ///< multiplies the kind's value
+    float pick = 1;         ///< probability that `Bsdf::sample` picks it
+    uint8_t frame = 0;      ///< index of the frame it lies around
+    bool looked_up = false; ///< `albedo` is known
+    uint16_t layer = 0;     ///< of the material, for pictures by layer; 0: of none with a name
+    Color albedo{};         ///< of `kind`, for the wo that the list is made for
     LobeVariant kind;
 };
 
@@ -74,11 +76,12 @@ struct BsdfSample {
 
 class Bsdf {
   public:
-    static constexpr int capacity = 32;
-    static constexpr int frame_capacity = 8;
+    /// Sixteen layers of four lobes each. Whoever makes lists must know that theirs fit: a lobe too
+    /// many ends the program.
+    static constexpr int capacity = 64;
 
     /// An empty list around one frame, n of which is on wo's side. The room for lobes stays
-    /// uninitialised.
+    /// uninitialised: what is not used costs no time.
     Bsdf(Frame const& shading_frame, Vec3 const& ng_facing_wo) : geometric_normal_(ng_facing_wo) {
         frames_[0] = shading_frame;
     }
@@ -93,53 +96,43 @@ class Bsdf {
     /// The one that a lobe of the list lies around.
     Frame const& frame(Lobe const& lobe) const { return frames_[lobe.frame]; }
 
-    /// Lobes added from here on lie around `frame`, whose n is on wo's side. Beyond
-    /// `frame_capacity` frames it is the last one that does.
+    /// Lobes added from here on lie around `frame`, whose n is on wo's side. Frames that no lobe
+    /// lies around take no room.
     void use_frame(Frame const& frame) {
         for (current_frame_ = 0; current_frame_ < frame_count_; ++current_frame_)
             if (frames_[current_frame_] == frame) return;
-        if (frame_count_ < frame_capacity)
-            frames_[frame_count_++] = frame;
-        else
-            --current_frame_;
+        frames_[frame_count_] = frame;
     }
 
     /// Appends an alternative of LobeVariant, or a LobeVariant; weights are >= 0. A black weight
-    /// adds nothing. False if the list is full and the lobe is lost.
+    /// adds nothing. Ends the program where there is no room.
     template <class L>
-    bool add(Color const& weight, L const& kind, uint16_t layer = 0) {
-        if (is_black(weight)) return true;
-        if (count_ == capacity) return false;
-        Lobe const& lobe = *std::construct_at(
-            &lobes_[count_++], Lobe{weight, 1, uint8_t(current_frame_), layer, LobeVariant(kind)});
-        LobeFlags const flags = flags_of(lobe);
-        add_sides(flags);
-        return true;
+    void add(Color const& weight, L const& kind, uint16_t layer = 0) {
+        if (!is_black(weight)) append(weight, kind, layer);
+    }
+    /// The same for a lobe that has been prepared for wo by `look_up_albedo`, which gave `albedo`.
+    template <class L>
+    void add_looked_up(Color const& weight, L const& kind, uint16_t layer, Color const& albedo) {
+        if (is_black(weight)) return;
+        Lobe& lobe = append(weight, kind, layer);
+        lobe.albedo = albedo;
+        lobe.looked_up = true;
     }
 
-    /// Shares out the picks by albedo as seen from `wo` (world space). Between the last `add`
-    /// and the first `sample` or `eval`; those are right, if noisier, for any other wo as well.
+    /// Shares out the picks by albedo as seen from `wo` (world space), and looks up what lobes need
+    /// of tables for it. Call it between the last `add` and the first `sample` or `eval`, which are
+    /// then for this wo alone.
     void prepare(Vec3 const& wo);
 
     /// The sum over the smooth lobes; the density is that of `sample` choosing wi by any of them.
     /// World space, unit directions.
-    LobeValue eval(Vec3 const& wo, Vec3 const& wi) const {
-        LobeValue sum;
-        for (int first = 0; first < count_;) {
-            Span const span = lobes_from(first);
-            LobeValue const v = eval_folded(span, wo, wi);
-            sum.f += v.f;
-            sum.pdf += v.pdf;
-            first = span.end;
-        }
-        return sum;
-    }
+    /// Not inlined, so that `sample` gives the same bits.
+    [[gnu::noinline]] LobeValue eval(Vec3 const& wo, Vec3 const& wi) const;
 
     /// The parts that make up `eval(wo, wi).f`: calls f(lobe, value) for each smooth lobe.
     template <class F>
     void for_each_value(Vec3 const& wo, Vec3 const& wi, F&& f) const {
-        for (int i = 0; i < count_; ++i)
-            f(lobes_[i], eval_folded({i, i + 1, frames_[lobes_[i].frame]}, wo, wi).f);
+        for (int i = 0; i < count_; ++i) f(lobes_[i], eval_one(i, wo, wi).f);
     }
     /// Whether wi is on wo's side of the surface itself.
     bool reflects(Vec3 const& wi) const { return dot(wi, geometric_normal_) > 0; }
@@ -158,11 +151,7 @@ class Bsdf {
 
     /// The power scattered towards anywhere, per channel; see lobe.h. Microfacet lobes answer
     /// from tables.
-    Color albedo(Vec3 const& wo) const {
-        Color sum;
-        for (int i = 0; i < count_; ++i) sum += lobes_[i].weight * lobe_albedo(lobes_[i], wo);
-        return sum;
-    }
+    Color albedo(Vec3 const& wo) const;
 
     /// The part of light that goes straight on.
     Color straight() const {
@@ -190,34 +179,23 @@ class Bsdf {
         return {first, end, frames_[lobes_[first].frame]};
     }
 
+    template <class L>
+    Lobe& append(Color const& weight, L const& kind, uint16_t layer) {
+        if (count_ == capacity) [[unlikely]]
+            no_room();
+        frame_count_ = std::max(frame_count_, current_frame_ + 1);
+        Lobe& lobe = *std::construct_at(&lobes_[count_++], Lobe{.weight = weight,
+                                                                .frame = uint8_t(current_frame_),
+                                                                .layer = layer,
+                                                                .kind = LobeVariant(kind)});
+        LobeFlags const flags = flags_of(lobe);
+        add_sides(flags);
+        return lobe;
+    }
+    [[noreturn]] static void no_room();
     void add_sides(LobeFlags const& flags) {
         sides_ |= flags.sides;
         if (!is_delta(flags.kind)) smooth_sides_ |= flags.sides;
-    }
-
-    Color lobe_albedo(Lobe const& lobe, Vec3 const& wo) const {
-        Vec3 const local = frames_[lobe.frame].to_local(wo);
-        return match(lobe.kind, [&](auto const& l) { return l.albedo(local); });
-    }
-
-    /// What one lobe said to `sample`, in local space.
-    struct Picked {
-        Vec3 wi;
-        float eta_scale;
-        ScatteringKind kind;
-        Color delta_weight{};
-        float delta_probability = 0;
-    };
-
-    template <class L>
-    static Picked sample_lobe(L const& lobe, Vec3 const& wo, Vec3 const& u) {
-        if constexpr (DeltaLobe<L>) {
-            DeltaSample const s = lobe.sample(wo, u);
-            return {s.wi, s.eta_scale, lobe.flags().kind, s.weight, s.probability};
-        } else {
-            Vec3 const wi = lobe.sample(wo, u);
-            return {wi, eta_scale_towards(lobe, wi), lobe.flags().kind};
-        }
     }
 
     bool same_sides(Vec3 const& wi, Vec3 const& local) const {
@@ -230,40 +208,13 @@ class Bsdf {
     }
 
     /// What the lobes of one frame send towards `wi`, and what they send to its fold.
-    LobeValue eval_folded(Span const& span, Vec3 const& wo, Vec3 const& wi) const {
-        Vec3 const wo_local = span.frame.to_local(wo), wi_local = span.frame.to_local(wi);
-        float const height = dot(wi, geometric_normal_);
-        LobeValue value;
-        if (height * wi_local.z > 0) value = eval_local(span, wo_local, wi_local);
-        // Where the normals are one this is -wi_local.z, and nothing is folded.
-        float const folded_z = wi_local.z - 2 * height * dot(span.frame.n, geometric_normal_);
-        if (folded_z * height > 0) [[unlikely]] {
-            LobeValue const v = eval_local(span, wo_local, span.frame.to_local(fold(wi)));
-            value.f += v.f;
-            value.pdf += v.pdf;
-        }
-        return value;
-    }
-
-    LobeValue eval_local(Span const& span, Vec3 const& wo, Vec3 const& wi) const {
-        Sides const side = wi.z > 0 ? Sides::Reflection : Sides::Transmission;
-        if (!any(smooth_sides_, side)) return {};
-        LobeValue sum;
-        for (int i = span.begin; i < span.end; ++i) {
-            Lobe const& lobe = lobes_[i];
-            LobeValue const v = match(lobe.kind, [&](auto const& l) {
-                if constexpr (SmoothLobe<std::remove_cvref_t<decltype(l)>>) return l.eval(wo, wi);
-                return LobeValue{};
-            });
-            sum.f += lobe.weight * v.f;
-            sum.pdf += lobe.pick * v.pdf;
-        }
-        return sum;
-    }
+    LobeValue eval_folded(Span const& span, Vec3 const& wo, Vec3 const& wi) const;
+    LobeValue eval_one(int i, Vec3 const& wo, Vec3 const& wi) const;
+    LobeValue eval_local(Span const& span, Vec3 const& wo, Vec3 const& wi) const;
 
     void copy(Bsdf const& o) {
         geometric_normal_ = o.geometric_normal_;
-        std::copy_n(o.frames_, o.frame_count_, frames_);
+        std::copy_n(o.frames_, std::max(o.frame_count_, o.current_frame_ + 1), frames_);
         frame_count_ = o.frame_count_;
         current_frame_ = o.current_frame_;
         std::uninitialized_copy_n(o.lobes_, o.count_, lobes_);
@@ -276,81 +227,11 @@ class Bsdf {
     Sides sides_{}, smooth_sides_{}; ///< of all lobes, and of those that `eval` adds up
     Vec3 geometric_normal_;          ///< on wo's side
     union {
-        Frame frames_[frame_capacity]; ///< the first frame_count_ are alive
+        Frame frames_[capacity + 2]; ///< the surface's, one per lobe, and one still unused
     };
     union {
         Lobe lobes_[capacity]; ///< the first count_ are alive
     };
 };
-
-inline void Bsdf::prepare(Vec3 const& wo) {
-    if (count_ <= 1) return;
-    // The floor keeps a lobe alive whose tabulated albedo rounds to 0.
-    constexpr float least_albedo = 1e-2f;
-    float total = 0;
-    for (int i = 0; i < count_; ++i) {
-        Color const albedo = lobe_albedo(lobes_[i], wo);
-        lobes_[i].pick = average(lobes_[i].weight * (albedo + Color(least_albedo)));
-        total += lobes_[i].pick;
-    }
-    for (int i = 0; i < count_; ++i) lobes_[i].pick /= total;
-}
-
-inline LobeValue Bsdf::eval_part(Vec3 const& wo, Vec3 const& wi, ScatteringKind part) const {
-    LobeValue sum;
-    for (int i = 0; i < count_; ++i) {
-        if (!same_part(flags_of(lobes_[i]).kind, part)) continue;
-        LobeValue const v = eval_folded({i, i + 1, frames_[lobes_[i].frame]}, wo, wi);
-        sum.f += v.f;
-        sum.pdf += v.pdf;
-    }
-    return sum;
-}
-
-inline void Bsdf::keep_diffuse() {
-    int count = 0;
-    float total = 0;
-    sides_ = smooth_sides_ = Sides::None;
-    for (int i = 0; i < count_; ++i) {
-        LobeFlags const flags = flags_of(lobes_[i]);
-        if (!is_diffuse(flags.kind) && flags.kind != ScatteringKind::Straight) continue;
-        lobes_[count++] = lobes_[i];
-        total += lobes_[i].pick;
-        add_sides(flags);
-    }
-    count_ = count;
-    for (int i = 0; i < count_; ++i) lobes_[i].pick /= total;
-}
-
-inline BsdfSample Bsdf::sample(Vec3 const& wo, Vec3 const& u, bool by_part) const {
-    if (count_ == 0) return {};
-    int picked = 0;
-    float rest = u.z;
-    while (picked + 1 < count_ && rest >= lobes_[picked].pick) rest -= lobes_[picked++].pick;
-    Lobe const& lobe = lobes_[picked];
-    Vec3 const u_lobe{u.x, u.y, std::min(rest / lobe.pick, kOneMinusEpsilon)};
-
-    Frame const& frame = frames_[lobe.frame];
-    Vec3 const wo_local = frame.to_local(wo);
-    Picked const p =
-        match(lobe.kind, [&](auto const& l) { return sample_lobe(l, wo_local, u_lobe); });
-    Vec3 wi = frame.to_world(p.wi);
-    if (!same_sides(wi, p.wi)) {
-        wi = fold(wi);
-        if (!same_sides(wi, p.wi)) return {}; // a failure: the zero vector is on no side
-    }
-
-    BsdfSample result{wi, {}, 0, {p.kind, !(p.wi.z > 0)}, p.eta_scale, lobe.layer};
-    if (is_delta(p.kind)) {
-        result.weight = lobe.weight * p.delta_weight * (1 / lobe.pick);
-        result.pdf = lobe.pick * p.delta_probability;
-        return result;
-    }
-    LobeValue const v = by_part ? eval_part(wo, wi, p.kind) : eval(wo, wi);
-    if (!(v.pdf > 0)) return {};
-    result.weight = v.f / v.pdf;
-    result.pdf = v.pdf;
-    return result;
-}
 
 } // namespace weft::lobes

@@ -83,4 +83,16 @@ float eta_scale_towards(L const& lobe, Vec3 const& wi) {
     return wi.z < 0 ? lobe.eta_scale() : 1.f;
 }
 
+// Lobes that ask tables about wo in every `eval` can do so once. Overloads of these two functions
+// let them; other lobes have nothing to prepare.
+
+/// Prepares `lobe` for `wo`: from here on it is evaluated for this wo alone.
+template <AnyLobe L>
+void look_up(L&, Vec3 const&) {}
+/// Does the same and returns lobe.albedo(wo), from the same look-up.
+template <AnyLobe L>
+Color look_up_albedo(L& lobe, Vec3 const& wo) {
+    return lobe.albedo(wo);
+}
+
 } // namespace weft::lobes

@@ -47,7 +47,7 @@ class MicrofacetDielectric {
         LobeValue v = wi.z > 0   ? eval_reflection(wo, wi)
                       : wi.z < 0 ? eval_transmission(wo, wi)
                                  : LobeValue{};
-        if (compensated_ && v.pdf > 0) v.f *= compensation(wo);
+        if (compensated_ && v.pdf > 0) v.f *= boost_ > 0 ? boost_ : compensation(wo);
         return v;
     }
 
@@ -68,15 +68,27 @@ class MicrofacetDielectric {
     }
 
     Color albedo(Vec3 const& wo) const {
+        return albedo(wo, dielectric_albedo(distribution_, wo, eta_));
+    }
+
+    /// See lobe.h.
+    void look_up(Vec3 const& wo) {
+        if (compensated_) boost_ = compensation(wo);
+    }
+    Color look_up_albedo(Vec3 const& wo) {
         DielectricAlbedo const plain = dielectric_albedo(distribution_, wo, eta_);
+        if (compensated_) boost_ = compensation(wo, plain);
+        return albedo(wo, plain);
+    }
+
+  private:
+    Color albedo(Vec3 const& wo, DielectricAlbedo const& plain) const {
         BoundarySplit const split = rough_split(wo, plain);
         Color const sum = reflectance_ * split.reflected + transmittance_ * split.transmitted;
         if (!compensated_) return sum;
         Color const all = sum * compensation(wo, plain);
         return min(all, 1);
     }
-
-  private:
     LobeValue eval_reflection(Vec3 const& wo, Vec3 const& wi) const {
         Vec3 const sum = wo + wi;
         float const sum_length = length(sum);
@@ -166,7 +178,17 @@ class MicrofacetDielectric {
     Color reflectance_, transmittance_;
     BoundaryOptions options_;
     bool compensated_;
+    float boost_ = 0; ///< the factor of compensation for the wo of `look_up`; 0: not looked up
 };
+
+template <class D>
+void look_up(MicrofacetDielectric<D>& lobe, Vec3 const& wo) {
+    lobe.look_up(wo);
+}
+template <class D>
+Color look_up_albedo(MicrofacetDielectric<D>& lobe, Vec3 const& wo) {
+    return lobe.look_up_albedo(wo);
+}
 
 using GgxDielectric = MicrofacetDielectric<Ggx>;
 using BeckmannDielectric = MicrofacetDielectric<Beckmann>;

@@ -22,6 +22,7 @@ struct MicrofacetReflection {
     Distribution distribution;
     Fresnel fresnel{};
     bool compensated = false; ///< for multiple scattering
+    float white = 0;          ///< the white albedo for the wo of `look_up`; 0: not looked up
 
     static constexpr LobeFlags flags() { return {ScatteringKind::Glossy, Sides::Reflection}; }
     float width() const { return widest_alpha(distribution); }
@@ -36,7 +37,7 @@ struct MicrofacetReflection {
         float const value =
             quarter_density * shadowing_above(wo.z, sigma_o, wi.z, sigma_i) / sigma_o;
         Color f = reflectance(fresnel, dot(wo, h)) * value;
-        if (compensated) f *= compensation(white_albedo(distribution, wo));
+        if (compensated) f *= compensation(white > 0 ? white : white_albedo(distribution, wo));
         return {f, quarter_density / distribution.reflecting_area(wo, h, sigma_o)};
     }
     Vec3 sample(Vec3 const& wo, Vec3 const& u) const {
@@ -48,7 +49,10 @@ struct MicrofacetReflection {
     Color albedo(Vec3 const& wo) const {
         if (std::holds_alternative<WhiteFresnel>(fresnel))
             return Color(compensated ? 1.f : white_albedo(distribution, wo));
-        ReflectionMoments const m = reflection_moments(distribution, wo);
+        return albedo(wo, reflection_moments(distribution, wo));
+    }
+    /// The same from the moments for wo.
+    Color albedo(Vec3 const& wo, ReflectionMoments const& m) const {
         Color const once = rough_albedo(wo, m);
         return compensated ? once * compensation(m.white) : once;
     }
@@ -61,11 +65,26 @@ struct MicrofacetReflection {
             return Color(dielectric_reflection(distribution, wo, d->eta));
         return rough_reflectance(fresnel, m);
     }
-    Color compensation(float white) const {
-        Color const lost = mean_reflectance(fresnel) * (1 - white);
+    Color compensation(float e) const {
+        Color const lost = mean_reflectance(fresnel) * (1 - e);
         return {1 / (1 - lost.r), 1 / (1 - lost.g), 1 / (1 - lost.b)};
     }
 };
+
+template <class D>
+void look_up(MicrofacetReflection<D>& lobe, Vec3 const& wo) {
+    if (lobe.compensated) lobe.white = white_albedo(lobe.distribution, wo);
+}
+template <class D>
+Color look_up_albedo(MicrofacetReflection<D>& lobe, Vec3 const& wo) {
+    if (std::holds_alternative<WhiteFresnel>(lobe.fresnel)) {
+        look_up(lobe, wo);
+        return lobe.albedo(wo);
+    }
+    ReflectionMoments const m = reflection_moments(lobe.distribution, wo);
+    lobe.white = m.white;
+    return lobe.albedo(wo, m);
+}
 
 using GgxReflection = MicrofacetReflection<Ggx>;
 using BeckmannReflection = MicrofacetReflection<Beckmann>;

@@ -42,9 +42,7 @@ void check_brightness(Input<Color> const& usual, std::string const& usual_name,
 /// Throws where a part of a material is what only whole materials can be.
 void check_part(MaterialId part, Facts const& facts, Report const& report) {
     Material const& material = facts.scene().materials[size_t(part.index)];
-    if (!std::holds_alternative<Hair>(material) &&
-        !std::holds_alternative<VolumeBoundary>(material))
-        return;
+    if (can_be_part(material)) return;
     report.fail("", report.title() + " expects a surface to be made of, found <bsdf type=\"" +
                         std::string(match(material, [](auto const& m) { return m.info.type; })) +
                         "\">");
@@ -84,10 +82,8 @@ Facts::Census const& Facts::census(InstanceId id) {
     if (censuses_.size() <= index) censuses_.resize(scene_.instances.size());
     if (censuses_[index].objects >= 0) return censuses_[index];
     Instance const& instance = scene_.instances[index];
-    auto const* disney = instance.bsdf
-                             ? std::get_if<Disney>(&scene_.materials[size_t(instance.bsdf.index)])
-                             : nullptr;
-    Census total{1, instance.emission || (disney && emits(*disney))};
+    bool const shines = instance.bsdf && emission_of(scene_.materials[size_t(instance.bsdf.index)]);
+    Census total{1, instance.emission || shines};
     if (auto const* group = std::get_if<Group>(&scene_.shapes[size_t(instance.shape.index)])) {
         total.objects = 0;
         for (InstanceId member : group->instances) {

@@ -3,7 +3,7 @@
 // the Disney BRDF to a BSDF with Integrated Subsurface Scattering".
 #pragma once
 
-#include "scene/handles.h"
+#include "scene/material_traits.h"
 #include "schema/describe.h"
 
 namespace weft::scene {
@@ -156,9 +156,18 @@ struct Disney {
     }
 };
 
-/// Whether it may emit light.
-inline bool emits(Disney const& material) {
-    return material.emission_strength.texture || material.emission_strength.value > 0;
-}
+template <>
+struct MaterialTraits<Disney> : IsSurface, HasNoParts {
+    static std::optional<Input<float>> inner_ior(Disney const& m) {
+        return may_differ(m.transmission, 0.f) ? std::optional(m.ior) : std::nullopt;
+    }
+    static bool passes_straight(Disney const&) { return false; }
+    static Input<float> opacity(Disney const& m) { return m.opacity; }
+    static std::optional<MaterialEmission> emission(Disney const& m) {
+        if (!m.emission_strength.texture && !(m.emission_strength.value > 0)) return {};
+        return MaterialEmission{m.emission_color, m.emission_strength};
+    }
+    static bool needs_tangents(Disney const& m) { return may_differ(m.anisotropic, 0.f); }
+};
 
 } // namespace weft::scene

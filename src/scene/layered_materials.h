@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/handles.h"
+#include "scene/material_traits.h"
 #include "schema/describe.h"
 
 namespace weft::scene {
@@ -66,6 +66,20 @@ struct Layered {
           {.help = "For light that was scattered before: all layers, or the last one alone."});
     }
 };
+template <>
+struct MaterialTraits<Layered> : IsSurface, IsOpaque, IsWholeAndDark, IsIsotropic {
+    static constexpr PartCount part_count{1, INT_MAX};
+    static std::vector<MaterialId> parts(Layered const& m, std::vector<Layer> const& layers) {
+        std::vector<MaterialId> all;
+        for (LayerId id : m.layers) all.push_back(layers[size_t(id.index)].bsdf);
+        return all;
+    }
+    static std::vector<std::string> labels(Layered const& m, std::vector<Layer> const& layers) {
+        std::vector<std::string> all;
+        for (LayerId id : m.layers) all.push_back(layers[size_t(id.index)].label);
+        return all;
+    }
+};
 
 struct Coat {
     static constexpr schema::TypeInfo info{
@@ -106,6 +120,17 @@ struct Coat {
           {.help = "For light that was scattered before: all of it, or what lies below alone."});
     }
 };
+template <>
+struct MaterialTraits<Coat> : IsSurface, IsOpaque, IsWholeAndDark, IsIsotropic {
+    static constexpr PartCount part_count{1, 1};
+    static std::vector<MaterialId> parts(Coat const& m, std::vector<Layer> const&) {
+        return {m.bsdf};
+    }
+    /// Of the coat's own reflection.
+    static std::vector<std::string> labels(Coat const& m, std::vector<Layer> const&) {
+        return {m.label};
+    }
+};
 
 struct Mix {
     static constexpr schema::TypeInfo info{
@@ -130,6 +155,16 @@ struct Mix {
           {.help = "For light that was scattered before: both, or the first one alone."});
     }
 };
+template <>
+struct MaterialTraits<Mix> : IsSurface, IsOpaque, IsWholeAndDark, IsIsotropic {
+    static constexpr PartCount part_count{2, 2};
+    static std::vector<MaterialId> parts(Mix const& m, std::vector<Layer> const&) {
+        return m.bsdfs;
+    }
+    static std::vector<std::string> labels(Mix const& m, std::vector<Layer> const&) {
+        return {m.label0, m.label1};
+    }
+};
 
 struct Secondary {
     static constexpr schema::TypeInfo info{
@@ -147,6 +182,16 @@ struct Secondary {
     template <class F>
     constexpr void describe(F&& f) {
         f("bsdf", bsdfs, {.help = "What the camera sees, and what stands in for it."});
+    }
+};
+template <>
+struct MaterialTraits<Secondary> : IsSurface, IsOpaque, IsWholeAndDark, IsIsotropic {
+    static constexpr PartCount part_count{2, 2};
+    static std::vector<MaterialId> parts(Secondary const& m, std::vector<Layer> const&) {
+        return m.bsdfs;
+    }
+    static std::vector<std::string> labels(Secondary const&, std::vector<Layer> const&) {
+        return {};
     }
 };
 

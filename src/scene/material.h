@@ -5,6 +5,7 @@
 #include <string_view>
 #include <variant>
 
+#include "base/match.h"
 #include "scene/disney.h"
 #include "scene/handles.h"
 #include "scene/layered_materials.h"
@@ -33,6 +34,8 @@ struct Diffuse {
            .help = "0 is Lambert's; 1 is dusty: flat like the full moon, as bright at its edge."});
     }
 };
+template <>
+struct MaterialTraits<Diffuse> : IsSurface, IsOpaque, IsWholeAndDark, IsIsotropic, HasNoParts {};
 
 struct Conductor {
     static constexpr schema::TypeInfo info{
@@ -45,6 +48,8 @@ struct Conductor {
           {.min = 0, .max = 1, .help = "Fraction of light that is reflected."});
     }
 };
+template <>
+struct MaterialTraits<Conductor> : IsSurface, IsOpaque, IsWholeAndDark, IsIsotropic, HasNoParts {};
 
 enum class Microfacets { ggx, beckmann };
 constexpr auto choices(Microfacets) { return std::array<std::string_view, 2>{"ggx", "beckmann"}; }
@@ -69,6 +74,9 @@ struct RoughConductor {
         f("distribution", distribution, {.help = "Distribution of the facets' normals."});
     }
 };
+template <>
+struct MaterialTraits<RoughConductor>
+    : IsSurface, IsOpaque, IsWholeAndDark, IsIsotropic, HasNoParts {};
 
 struct Dielectric {
     static constexpr schema::TypeInfo info{
@@ -91,6 +99,11 @@ struct Dielectric {
         f("transmittance", transmittance,
           {.min = 0, .max = 1, .help = "A factor on what is refracted."});
     }
+};
+template <>
+struct MaterialTraits<Dielectric> : IsSurface, IsWholeAndDark, IsIsotropic, HasNoParts {
+    static std::optional<Input<float>> inner_ior(Dielectric const& m) { return m.ior; }
+    static bool passes_straight(Dielectric const&) { return false; }
 };
 
 struct RoughDielectric {
@@ -116,6 +129,11 @@ struct RoughDielectric {
           {.min = 0, .max = 1, .help = "0 is smooth, 1 is dull; alpha = max(roughness^2, 0.001)."});
         f("distribution", distribution, {.help = "Distribution of the facets' normals."});
     }
+};
+template <>
+struct MaterialTraits<RoughDielectric> : IsSurface, IsWholeAndDark, IsIsotropic, HasNoParts {
+    static std::optional<Input<float>> inner_ior(RoughDielectric const& m) { return m.ior; }
+    static bool passes_straight(RoughDielectric const&) { return false; }
 };
 
 struct Principled {
@@ -146,6 +164,8 @@ struct Principled {
                    "metallic))."});
     }
 };
+template <>
+struct MaterialTraits<Principled> : IsSurface, IsOpaque, IsWholeAndDark, IsIsotropic, HasNoParts {};
 
 struct VolumeBoundary {
     static constexpr schema::TypeInfo info{
@@ -174,10 +194,44 @@ struct VolumeBoundary {
            .help = "Fraction of scattered light that is not absorbed, by colour."});
     }
 };
+template <>
+struct MaterialTraits<VolumeBoundary> : IsOpaque, IsWholeAndDark, IsIsotropic, HasNoParts {
+    static constexpr bool is_null_boundary = true;
+    static constexpr bool can_be_part = false;
+};
 
 using Material = std::variant<Diffuse, Conductor, RoughConductor, Dielectric, RoughDielectric,
                               Principled, Disney, Microfacet, Translucent, Transparent, Hair,
                               Layered, Coat, Mix, Secondary, VolumeBoundary>;
+
+/// Calls f.operator()<Traits>(m) with the traits of the alternative that `material` holds.
+template <class F>
+decltype(auto) with_traits(Material const& material, F&& f) {
+    return match(material, [&]<KnownMaterial M>(M const& m) -> decltype(auto) {
+        return f.template operator()<MaterialTraits<M>>(m);
+    });
+}
+
+/// Whether the material has no surface of its own: rays pass straight on.
+inline bool is_null_boundary(Material const& material) {
+    return with_traits(material, []<class T>(auto const&) -> bool { return T::is_null_boundary; });
+}
+/// Whether other materials can be made of it.
+inline bool can_be_part(Material const& material) {
+    return with_traits(material, []<class T>(auto const&) -> bool { return T::can_be_part; });
+}
+/// How much of a material by itself is there, 0 to 1.
+inline Input<float> opacity_of(Material const& material) {
+    return with_traits(material, []<class T>(auto const& m) { return T::opacity(m); });
+}
+/// What a material by itself emits, if it may.
+inline std::optional<MaterialEmission> emission_of(Material const& material) {
+    return with_traits(material, []<class T>(auto const& m) { return T::emission(m); });
+}
+/// Whether it looks at the direction in which u grows, its parts aside.
+inline bool needs_tangents(Material const& material) {
+    return with_traits(material, []<class T>(auto const& m) { return T::needs_tangents(m); });
+}
 
 struct LambertianEmission {
     static constexpr schema::TypeInfo info{

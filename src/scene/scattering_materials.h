@@ -4,7 +4,7 @@
 #include <array>
 #include <string_view>
 
-#include "scene/handles.h"
+#include "scene/material_traits.h"
 #include "schema/describe.h"
 
 namespace weft::scene {
@@ -92,6 +92,15 @@ struct Microfacet {
         f("normal", normal, {.help = "Shading normal, from a `normalmap` or `bump` node."});
     }
 };
+template <>
+struct MaterialTraits<Microfacet> : IsSurface, IsWholeAndDark, HasNoParts {
+    static std::optional<Input<float>> inner_ior(Microfacet const& m) {
+        bool const refracts = m.metal == Metal::none && may_differ(m.transmittance, Color(0));
+        return refracts ? std::optional(m.ior) : std::nullopt;
+    }
+    static bool passes_straight(Microfacet const&) { return false; }
+    static bool needs_tangents(Microfacet const& m) { return may_differ(m.anisotropic, 0.f); }
+};
 
 struct Translucent {
     static constexpr schema::TypeInfo info{
@@ -111,6 +120,9 @@ struct Translucent {
           {.min = 0, .max = 1, .help = "Fraction of light that comes out of the other side."});
     }
 };
+template <>
+struct MaterialTraits<Translucent>
+    : IsSurface, IsOpaque, IsWholeAndDark, IsIsotropic, HasNoParts {};
 
 struct Transparent {
     static constexpr schema::TypeInfo info{
@@ -124,6 +136,13 @@ struct Transparent {
     constexpr void describe(F&& f) {
         f("transmittance", transmittance,
           {.min = 0, .max = 1, .help = "Fraction of light that goes through."});
+    }
+};
+template <>
+struct MaterialTraits<Transparent> : IsSurface, IsWholeAndDark, IsIsotropic, HasNoParts {
+    static std::optional<Input<float>> inner_ior(Transparent const&) { return {}; }
+    static bool passes_straight(Transparent const& m) {
+        return may_differ(m.transmittance, Color(0));
     }
 };
 
@@ -165,6 +184,12 @@ struct Hair {
         f("scaleAngle", scale_angle,
           {.unit = "deg", .min = -45, .max = 45, .help = "Tilt of the scales, towards the root."});
     }
+};
+template <>
+struct MaterialTraits<Hair> : IsOpaque, IsWholeAndDark, HasNoParts {
+    static constexpr bool is_null_boundary = false;
+    static constexpr bool can_be_part = false;
+    static bool needs_tangents(Hair const&) { return true; }
 };
 
 } // namespace weft::scene

@@ -47,8 +47,7 @@ struct DisneyBuilder {
         if (sheen == 0) return;
         lobes::Sheen const lobe{unit(at(m.sheen_roughness))};
         Color const color = sheen * unit(at(m.sheen_tint));
-        b.add(color, lobe);
-        layer_over(color * b.albedo(lobe, around));
+        layer_over(color * b.add_layer(color, lobe, around));
     }
 
     void add_clearcoat() {
@@ -59,8 +58,7 @@ struct DisneyBuilder {
         b.to.bsdf.use_frame(coat);
         float const coat_ior = at(m.clearcoat_ior);
         lobes::Clearcoat const lobe(std::min(b.alpha(at(m.clearcoat_roughness)), 0.5f), coat_ior);
-        b.add(Color(clearcoat), lobe);
-        layer_over(clearcoat * b.albedo(lobe, coat));
+        layer_over(clearcoat * b.add_layer(Color(clearcoat), lobe, coat));
         Color const through =
             layer_transmittance(unit(at(m.clearcoat_tint)), 1, coat_ior, dot(coat.n, b.view.wo));
         b.weight *= lerp(Color(1), through, clearcoat);
@@ -115,9 +113,8 @@ struct DisneyBuilder {
                 // What is weaker than any stone fades at the edge, too.
                 fresnel = lobes::SchlickFresnel{f0 * specular_tint, Color(std::min(50 * f0, 1.f))};
             }
-            lobes::GgxReflection const lobe{facets, fresnel, true};
-            b.add(Color(share), lobe);
-            reflected = b.albedo(lobe, around);
+            reflected =
+                b.add_layer(Color(share), lobes::GgxReflection{facets, fresnel, true}, around);
         }
         Color const below = share * rest_of(reflected) * base;
         float const subsurface = unit(at(m.subsurface));
@@ -142,15 +139,7 @@ struct DisneyBuilder {
 } // namespace
 
 void LobeBuilder::operator()(scene::Disney const& m, Values const& at) const {
-    LobeBuilder inner = *this;
-    if (part) { // a whole material's are looked after by the world
-        float const opacity = unit(at(m.opacity));
-        if (opacity < 1) add(Color(1 - opacity), lobes::Transparent{});
-        inner.weight *= opacity;
-        if (view.entering && scene::emits(m))
-            to.emission += inner.weight * at(m.emission_color) * at(m.emission_strength);
-    }
-    DisneyBuilder(inner, m, at).build();
+    DisneyBuilder(*this, m, at).build();
 }
 
 } // namespace weft::shading

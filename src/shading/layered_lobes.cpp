@@ -5,18 +5,40 @@ namespace weft::shading {
 
 void LobeBuilder::build(scene::MaterialId id) const {
     CompiledMaterial const& material = materials[id];
+    if (count) {
+        CompiledMaterial const chosen = count->with_chosen_inputs(material);
+        return build(chosen, Values());
+    }
     Values values;
     evaluate(material.program, point, values);
+    build(material, values);
+}
+
+void LobeBuilder::build(CompiledMaterial const& material, Values const& values) const {
     to.bsdf.use_frame(frame);
     LobeBuilder inner = *this;
     inner.layers = &material.layers;
     inner.labels = &material.labels;
-    match(material.parameters, [&](auto const& m) { inner(m, values); });
+    match(material.parameters, [&](auto const& m) {
+        if (part) inner.add_presence(m, values);
+        inner(m, values);
+    });
+}
+
+template <class M>
+void LobeBuilder::add_presence(M const& m, Values const& at) {
+    using Traits = scene::MaterialTraits<M>;
+    float const opacity = unit(at(Traits::opacity(m)));
+    if (opacity < 1) add(Color(1 - opacity), lobes::Transparent{});
+    weight *= opacity;
+    if (auto const emission = Traits::emission(m); emission && view.entering)
+        to.emission += weight * at(emission->color) * at(emission->strength);
 }
 
 void LobeBuilder::build_part(scene::MaterialId id, Color const& w, Frame const& f,
                              uint16_t l) const {
     if (is_black(w)) return;
+    if (count) return count->add_part(materials[id], view.look.secondary);
     LobeBuilder inner = *this;
     inner.weight *= w;
     inner.frame = f;
@@ -49,11 +71,10 @@ void LobeBuilder::operator()(scene::Coat const& m, Values const& at) const {
     lobes::GgxReflection const lobe{{alpha, alpha}, lobes::DielectricFresnel{ior}, true};
     LobeBuilder coat = *this;
     coat.label = label_of(0);
-    coat.add(Color(w), lobe);
+    Color const reflected = coat.add_layer(Color(w), lobe, around);
     Color const through =
         layer_transmittance(unit(at(m.tint)), at(m.thickness), ior, dot(around.n, view.wo));
-    build_part(m.bsdf, rest_of(w * albedo(lobe, around)) * lerp(Color(1), through, w), frame,
-               label);
+    build_part(m.bsdf, rest_of(w * reflected) * lerp(Color(1), through, w), frame, label);
 }
 
 void LobeBuilder::operator()(scene::Mix const& m, Values const& at) const {

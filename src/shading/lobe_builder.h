@@ -3,6 +3,7 @@
 // principled material, layered_lobes.cpp what is made of other materials.
 #pragma once
 
+#include "shading/lobe_count.h"
 #include "shading/materials.h"
 
 namespace weft::shading {
@@ -17,16 +18,23 @@ struct LobeBuilder {
     SurfacePoint const& point;
     View const& view;
     Shading& to;
-    Frame frame;       ///< of the surface or layer
-    Color weight{1};   ///< what layers above leave of the light
-    bool part = false; ///< of another material: opacity and emission are its own affair
+    Frame frame;                                       ///< of the surface or layer
+    Color weight{1};                                   ///< what layers above leave of the light
+    bool part = false;                                 ///< of another material, see add_presence
     std::vector<scene::Layer> const* layers = nullptr; ///< of a `layered` one
     std::vector<uint16_t> const* labels = nullptr;     ///< of the parts
     uint16_t label = 0;                                ///< of the layer that all of it is in
+    LobeCount* count = nullptr; ///< where set, lobes are counted and not added
 
     void build(scene::MaterialId id) const;
+    /// The same with the registers of the material's program filled.
+    void build(CompiledMaterial const& material, Values const& values) const;
     /// The same for a part that gets the share `w` of the light, around `f`, in the layer `l`.
     void build_part(scene::MaterialId id, Color const& w, Frame const& f, uint16_t l) const;
+    /// What the opacity of a part lets straight through, which leaves the rest of the weight, and
+    /// what the part emits. The world looks after those of a whole material.
+    template <class M>
+    void add_presence(M const& m, Values const& at);
     /// The label of a part of this material, or else that of the whole.
     uint16_t label_of(size_t i) const { return (*labels)[i] ? (*labels)[i] : label; }
 
@@ -49,7 +57,21 @@ struct LobeBuilder {
 
     template <class L>
     void add(Color const& w, L const& lobe) const {
-        to.bsdf.add(weight * w, lobe, label);
+        if (count)
+            count->add(w);
+        else
+            to.bsdf.add(weight * w, lobe, label);
+    }
+    /// Adds a lobe around `f`, the frame in use, and returns its albedo: what of the light does not
+    /// get through to the layers below.
+    template <class L>
+    Color add_layer(Color const& w, L lobe, Frame const& f) const {
+        Color const albedo = look_up_albedo(lobe, f.to_local(view.wo));
+        if (count)
+            count->add(w);
+        else
+            to.bsdf.add_looked_up(weight * w, lobe, label, albedo);
+        return albedo;
     }
     /// How much light from everywhere a lobe around `f` sends towards wo.
     template <class L>

@@ -46,8 +46,12 @@ struct CompiledMaterial {
     scene::Material parameters;
     std::vector<scene::Layer> layers; ///< of a `layered` one
     std::vector<uint16_t> labels;     ///< in Materials::labels, of its layers, coat or two parts
+    std::vector<scene::MaterialId> parts; ///< what it is made of
     Program program;
-    bool done = false;
+    bool done = false; ///< compiled
+    bool fits = false; ///< a Bsdf has room for it
+    /// As a part of another material, for camera and for secondary rays; -1: not counted.
+    std::array<int, 2> most_lobes{-1, -1};
 };
 
 class Materials {
@@ -56,7 +60,8 @@ class Materials {
     explicit Materials(scene::Scene const& scene) : compiled_(scene.materials.size()) {}
 
     /// Compiles a material and all that it is made of, unless that is done. Throws InputError for
-    /// a network of nodes that is too large, or more lobes than a Bsdf holds.
+    /// a network of nodes that is too large, and for a material that may have more lobes than a
+    /// Bsdf has room for.
     void compile(scene::Scene const& scene, scene::MaterialId id, GraphCompiler& compiler);
 
     /// What the programs of a compiled material ask of a point.
@@ -79,27 +84,12 @@ class Materials {
     }
 
   private:
-    template <class F>
-    void for_each_part(scene::MaterialId id, F const& f) const;
-    int most_lobes(scene::MaterialId id) const;
+    void compile_with_parts(scene::Scene const& scene, scene::MaterialId id,
+                            GraphCompiler& compiler);
     uint16_t label_index(std::string const& label, SourceLocation const& where);
 
     std::vector<CompiledMaterial> compiled_; ///< as the scene's
     std::vector<std::string> labels_{scene::kDefaultGroup};
 };
-
-/// Index of refraction of a closed object of this material.
-scene::Input<float> interior_ior(scene::Scene const& scene, scene::MaterialId id);
-
-/// Whether light goes through into the object's inside.
-bool is_transmissive(scene::Scene const& scene, scene::MaterialId id);
-
-/// Whether parts of it may let light straight through, its opacity as a whole aside.
-bool passes_straight(scene::Scene const& scene, scene::MaterialId id);
-
-/// Whether the material has no surface of its own: rays pass straight on.
-inline bool is_null_boundary(scene::Material const& material) {
-    return std::holds_alternative<scene::VolumeBoundary>(material);
-}
 
 } // namespace weft::shading

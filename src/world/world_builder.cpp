@@ -5,6 +5,7 @@
 #include <set>
 
 #include "scene/check.h"
+#include "scene/material_facts.h"
 
 namespace weft::world {
 
@@ -167,15 +168,13 @@ void WorldBuilder::add_object(scene::Shape const& shape, int32_t instance, Inher
     object.shadow_catcher = given.shadow_catcher;
     if (given.material) {
         auto const& material = scene_.materials[size_t(given.material.index)];
-        object.is_null = shading::is_null_boundary(material);
-        object.has_interior = shading::is_transmissive(scene_, given.material);
+        object.is_null = scene::is_null_boundary(material);
+        object.has_interior = scene::is_transmissive(scene_, given.material);
         object.is_see_through =
-            !object.has_interior && shading::passes_straight(scene_, given.material);
-        if (auto const* disney = std::get_if<scene::Disney>(&material)) {
-            object.opacity.material = disney->opacity;
-            if (!given.emission && scene::emits(*disney))
-                object.emission = {disney->emission_color, disney->emission_strength};
-        }
+            !object.has_interior && scene::passes_straight(scene_, given.material);
+        object.opacity.material = scene::opacity_of(material);
+        if (auto const own = scene::emission_of(material); own && !given.emission)
+            object.emission = {own->color, own->strength};
     }
     object.has_alpha = object.opacity != shading::Opacity{};
     // A medium without a surface material is bounded by nothing, and nothing does not shine.
@@ -226,7 +225,7 @@ void WorldBuilder::compile_networks() {
         prepare(o.emission.color.texture);
         prepare(o.emission.strength.texture);
         if (!o.material) continue;
-        o.ior = shading::interior_ior(scene_, o.material);
+        o.ior = scene::inner_ior(scene_, o.material).value_or(scene::Input<float>{1});
         prepare(o.ior.texture);
         world_.materials_.compile(scene_, o.material, compiler_);
         look(world_.materials_.needs(o.material));

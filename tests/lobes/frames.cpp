@@ -124,18 +124,28 @@ TEST(Frames, FoldingKeepsAllPower) {
     EXPECT_EQ(tests, 12); // what the correction assumes
 }
 
-TEST(Frames, BeyondCapacityTheLastOneServes) {
+TEST(Frames, ThereIsRoomForOneOfEachLobe) {
     Bsdf bsdf(Frame(kNg), kNg);
-    bsdf.add(Color(0.1f), Lambert{});
-    for (int i = 1; i < 20; ++i) {
-        bsdf.use_frame(Frame(at_angle(float(i), 0)));
-        EXPECT_TRUE(bsdf.add(Color(0.1f), Lambert{}));
+    for (int i = 0; i < Bsdf::capacity; ++i) {
+        bsdf.use_frame(Frame(at_angle(80, float(i) + 200))); // without a lobe it takes no room
+        bsdf.use_frame(Frame(at_angle(float(i + 1), 0)));
+        bsdf.add(Color(0.01f), Lambert{});
     }
-    for (int i = 0; i < bsdf.size(); ++i)
-        EXPECT_EQ(int(bsdf[i].frame), std::min(i, Bsdf::frame_capacity - 1));
-    bsdf.use_frame(Frame(kNg)); // known ones are found again
-    bsdf.add(Color(0.1f), Lambert{});
-    EXPECT_EQ(bsdf[bsdf.size() - 1].frame, 0);
+    bsdf.use_frame(Frame(at_angle(80, 100)));
+    Bsdf const copy = bsdf;
+    for (int i = 0; i < Bsdf::capacity; ++i)
+        EXPECT_EQ(copy.frame(copy[i]), Frame(at_angle(float(i + 1), 0)));
+    EXPECT_EQ(copy.frame(), Frame(kNg));
+}
+
+TEST(Frames, AreFoundAgain) {
+    Bsdf bsdf(Frame(kNg), kNg);
+    Frame const other(at_angle(20));
+    for (int i = 0; i < 6; ++i) {
+        bsdf.use_frame(i % 2 ? other : Frame(kNg));
+        bsdf.add(Color(0.1f), Lambert{});
+        EXPECT_EQ(bsdf[i].frame, i % 2);
+    }
     bsdf.prepare(kNg);
     EXPECT_GT(bsdf.sample(kNg, Vec3(0.5f)).pdf, 0);
 }

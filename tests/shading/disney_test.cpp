@@ -2,6 +2,7 @@
 // written down once more.
 #include <gtest/gtest.h>
 
+#include "scene/material_facts.h"
 #include "tests/shading/material_bench.h"
 
 using namespace weft;
@@ -159,9 +160,9 @@ TEST(Disney, LightLeavesByTheInverseIndex) {
     EXPECT_NEAR(only<lobes::GgxDielectric>(inside.bsdf).second.eta(), 1 / 1.4f, 1e-6);
     EXPECT_EQ(outside.ior, 1.4f);
     MaterialBench bench;
-    EXPECT_EQ(shading::interior_ior(bench.scene(), bench.add(m)).value, 1.4f);
+    EXPECT_EQ(scene::inner_ior(bench.scene(), bench.add(m))->value, 1.4f);
     m.transmission = {0.f};
-    EXPECT_EQ(shading::interior_ior(bench.scene(), bench.add(m)).value, 1.f);
+    EXPECT_FALSE(scene::inner_ior(bench.scene(), bench.add(m)));
 }
 
 struct Parts {

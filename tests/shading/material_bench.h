@@ -31,7 +31,13 @@ class MaterialBench {
         in.texture = {int32_t(scene_.textures.size()) - 1};
         return in;
     }
+    /// Says what the last material is called, and where it stands.
+    void name_last(std::string const& name, SourceLocation const& where) {
+        scene_.material_names.back() = name;
+        scene_.material_locations.back() = where;
+    }
     scene::Scene const& scene() const { return scene_; }
+    shading::Materials const& materials() const { return materials_; }
     void compile() {
         materials_ = shading::Materials(scene_);
         shading::GraphCompiler compiler(scene_);
@@ -39,12 +45,13 @@ class MaterialBench {
             materials_.compile(scene_, {int32_t(i)}, compiler);
     }
     /// After `compile`. `wo` below the patch leaves the object.
-    shading::Shading shade(scene::MaterialId id, Vec3 const& wo, bool secondary = false) const {
+    shading::Shading shade(scene::MaterialId id, Vec3 const& wo, bool secondary = false,
+                           Vec2 uv = {0.5f, 0.3f}) const {
         shading::SurfacePoint point;
         point.dpdu = {1, 0, 0};
         point.dpdv = {0, 1, 0};
         point.wo = wo;
-        point.uv = {0.5f, 0.3f};
+        point.uv = uv;
         bool const entering = wo.z > 0;
         shading::View const view{wo, {0, 0, entering ? 1.f : -1.f}, entering, 1, {secondary}};
         shading::Shading shading(lobes::Bsdf(shading_frame(point, point.ns, view), view.ng));
