@@ -1,6 +1,6 @@
-// Directional albedo of microfacet lobes from precomputed tables: the power that leaves a lobe when
-// it is seen along a direction. It picks lobes, dims what lies below them, and makes up for the
-// light that the single-scattering model loses.
+// Directional albedo of microfacet lobes from precomputed tables: the fraction of power that a lobe
+// scatters when it is seen along a direction. It decides how often lobes are picked, how much light
+// the layers below get, and how much light a single-scattering lobe must be given back.
 //
 // tools/make_albedo_tables.cpp writes the tables (albedo_tables.h) on the grids declared here.
 // Between nodes they are interpolated linearly. Alphas beyond 1 are taken at that

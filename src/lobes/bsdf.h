@@ -1,20 +1,21 @@
 // A BSDF as a flat list of weighted lobes, each around one of a few shading frames.
 //
-// Most surfaces have one frame. Layers with normal maps of their own, and stretched highlights that
-// are turned, each bring another: `use_frame` says around which one the lobes that follow lie.
+// Most surfaces have one frame. A layer with a normal map of its own adds another, and so does a
+// highlight that is stretched along a turned axis. `use_frame` chooses the frame of the lobes that
+// are added after it.
 //
-// Materials add lobes, `prepare` decides how often each is picked, and `sample` picks one, samples
-// it, then evaluates the *whole* list, so that value and density cannot disagree (single-sample
+// Materials add lobes, and `prepare` decides how often each is picked. `sample` picks one, samples
+// it, and then evaluates the *whole* list, so that value and density cannot disagree (single-sample
 // MIS with the balance heuristic, Veach 1997, 9.2.4). Delta lobes have no value that `eval` could
-// add: `sample` returns them alone, with the probability of that.
+// add, so `sample` returns the one it picked alone.
 //
-// Light does not leak: what reflects stays on the geometric side of wo, what transmits leaves it
-// (Veach 1997, 5.3, lets the shading normal decide). What the shading normal sends to the wrong
-// side is *folded*: mirrored at the geometric tangent plane, as a second bounce there would. A
-// folded density is the sum of two, f'(wi) = f(wi) + f(fold wi), each where its own side is right;
-// fold keeps solid angles, so the power of every lobe stays whole (a bent white mirror is white,
-// and facets at the terminator are not black), at the price of reciprocity, which shading normals
-// break anyway.
+// Shading normals do not let light leak through the surface. Light that is reflected stays on wo's
+// side of the geometric surface, and light that is transmitted leaves it (Veach 1997, 5.3, lets the
+// shading normal decide). A direction on the wrong side is *folded*: mirrored at the geometric
+// tangent plane, as if the surface had scattered it once more. The value for wi is then f(wi) +
+// f(fold wi), each counted where its own side is right. Mirroring keeps solid angles, so that no
+// lobe loses power: a bent white mirror is white, and facets at the terminator are not black. The
+// price is reciprocity, which shading normals break anyway.
 #pragma once
 
 #include <cassert>
@@ -91,9 +92,9 @@ class Bsdf {
         return *this;
     }
 
-    /// The first frame, that of the surface itself.
+    /// Returns the frame that the list was made with: that of the surface itself.
     Frame const& frame() const { return frames_[0]; }
-    /// The one that a lobe of the list lies around.
+    /// Returns the frame of a lobe of this list.
     Frame const& frame(Lobe const& lobe) const { return frames_[lobe.frame]; }
 
     /// Lobes added from here on lie around `frame`, whose n is on wo's side. Frames that no lobe
@@ -124,36 +125,36 @@ class Bsdf {
     /// then for this wo alone.
     void prepare(Vec3 const& wo);
 
-    /// The sum over the smooth lobes; the density is that of `sample` choosing wi by any of them.
-    /// World space, unit directions.
+    /// Returns the sum over the smooth lobes, and the density with which `sample` gives wi. Both
+    /// directions are unit vectors in world space.
     /// Not inlined, so that `sample` gives the same bits.
     [[gnu::noinline]] LobeValue eval(Vec3 const& wo, Vec3 const& wi) const;
 
-    /// The parts that make up `eval(wo, wi).f`: calls f(lobe, value) for each smooth lobe.
+    /// Calls f(lobe, value) for each lobe, with its share of `eval(wo, wi).f`.
     template <class F>
     void for_each_value(Vec3 const& wo, Vec3 const& wi, F&& f) const {
         for (int i = 0; i < count_; ++i) f(lobes_[i], eval_one(i, wo, wi).f);
     }
-    /// Whether wi is on wo's side of the surface itself.
+    /// Returns whether wi is on wo's side of the geometric surface.
     bool reflects(Vec3 const& wi) const { return dot(wi, geometric_normal_) > 0; }
 
-    /// The part of `eval` that lobes of the kind `part` belong to, see kParts. Which side of the
-    /// surface it is on, wi says.
+    /// Returns what `eval` would if the list had only the lobes of one part (see kParts): that of
+    /// the kind `part`.
     LobeValue eval_part(Vec3 const& wo, Vec3 const& wi, ScatteringKind part) const;
 
-    /// Picks a lobe by u.z, samples it by what is left of u; u in [0, 1)^3. With `by_part`, value
-    /// and density are those of `eval_part` of the lobe picked alone, as if each part were
-    /// sampled for itself.
+    /// Picks a lobe by u.z and samples it by u.x, u.y and what the pick leaves of u.z; u in
+    /// [0, 1)^3. With `by_part`, value and density are those of `eval_part` for the picked lobe's
+    /// part, as if each part were sampled by itself.
     BsdfSample sample(Vec3 const& wo, Vec3 const& u, bool by_part = false) const;
 
-    /// Takes out all that mirrors or is glossy, but for what goes straight on.
+    /// Removes all lobes that are neither diffuse nor straight.
     void keep_diffuse();
 
-    /// The power scattered towards anywhere, per channel; see lobe.h. Microfacet lobes answer
-    /// from tables.
+    /// Returns the fraction of power that is scattered, in all directions together, per channel;
+    /// see lobe.h. Microfacet lobes answer from tables.
     Color albedo(Vec3 const& wo) const;
 
-    /// The part of light that goes straight on.
+    /// Returns the fraction of light that goes straight through.
     Color straight() const {
         Color sum;
         for (int i = 0; i < count_; ++i)
@@ -164,11 +165,11 @@ class Bsdf {
     int size() const { return count_; }
     Lobe const& operator[](int i) const { return lobes_[i]; }
     Sides sides() const { return sides_; } ///< the union over all lobes
-    /// Whether `eval` can be other than black, so that light sampling makes sense.
+    /// Returns whether `eval` can be other than black: only then does light sampling make sense.
     bool has_smooth() const { return smooth_sides_ != Sides::None; }
 
   private:
-    /// Neighbours in the list that lie around one frame.
+    /// A run of lobes that share a frame.
     struct Span {
         int begin, end;
         Frame const& frame;
@@ -202,12 +203,12 @@ class Bsdf {
         return dot(wi, geometric_normal_) * local.z > 0;
     }
 
-    /// `wi` mirrored at the geometric tangent plane.
+    /// Mirrors `wi` at the geometric tangent plane.
     Vec3 fold(Vec3 const& wi) const {
         return wi - geometric_normal_ * (2 * dot(wi, geometric_normal_));
     }
 
-    /// What the lobes of one frame send towards `wi`, and what they send to its fold.
+    /// Returns what the lobes of one frame send towards `wi`, with what they send to its fold.
     LobeValue eval_folded(Span const& span, Vec3 const& wo, Vec3 const& wi) const;
     LobeValue eval_one(int i, Vec3 const& wo, Vec3 const& wi) const;
     LobeValue eval_local(Span const& span, Vec3 const& wo, Vec3 const& wi) const;

@@ -7,8 +7,8 @@
 // roughness. F = (r - 1/2) + r wo.wi makes its albedo A a polynomial in cos_o, and here the value
 // is multiplied by
 //     min(1, 1 / A(o), 1 / A(i)),
-// so that no direction gives more than it receives, what did not is as published unless it looks at
-// a direction that did, and reciprocity holds. (Lagarde and de Rousiers 2014 scale all directions
+// so that no direction gives back more than it receives, and reciprocity holds. Two directions that
+// both gave less keep the published value. (Lagarde and de Rousiers 2014 scale all directions
 // by a linear function of r instead, which darkens rough surfaces by a third.)
 #pragma once
 

@@ -1,11 +1,11 @@
 // How a boundary between two dielectrics shares light out between reflection and transmission.
 //
 // By the exact Fresnel equations of one index, unless
-// * the reflection has an index of its own, as productions like to light reflections and
-//   refractions apart. What is reflected then follows `reflection_eta`, and what crosses is the
-//   lesser of what the two indices let through, so that no energy is gained. (Where the reflection
-//   index is the stronger one the boundary is not reciprocal; a weaker one loses energy.)
-// * a thin film covers it, which then decides alone.
+// * the reflection has an index of its own, for productions that light reflections and refractions
+//   separately. Reflection then follows `reflection_eta`, and of the two fractions that the indices
+//   let through, the smaller one crosses, so that no energy is gained. (A stronger index of
+//   reflection makes the boundary non-reciprocal; a weaker one loses energy.)
+// * a thin film covers it: then the film alone decides.
 #pragma once
 
 #include "lobes/fresnel.h"
@@ -36,9 +36,9 @@ inline BoundarySplit split_light(BoundaryOptions const& options, float eta, floa
     return {Color(fresnel), Color(1 - fresnel)};
 }
 
-/// How much more than comes in would be given out under the worst angle, were it not cut: what a
-/// lint asks when it loads a material. One or two hundredths are no mistake: towards grazing
-/// angles, past the denser one's Brewster angle, the lesser index reflects a little more.
+/// Returns how much more light than arrives would leave at the worst angle if `split_light` did not
+/// cut it, as a fraction. Lints of materials warn of it. One or two hundredths are no mistake:
+/// beyond the Brewster angle of the higher index, the lower one reflects a little more.
 inline float energy_gain(float eta, float reflection_eta) {
     constexpr int n = 256;
     float worst = 0;

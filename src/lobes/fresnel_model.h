@@ -15,7 +15,7 @@
 
 namespace weft::lobes {
 
-/// Everything; leaves the tint to the list's weight.
+/// Reflects all light; the tint is the weight in the list.
 struct WhiteFresnel {};
 
 /// f0 + (f90 - f0) (1 - c)^5 - edge c (1 - c)^6.

@@ -14,7 +14,8 @@
 // and f carries the cosine to the normal plane, sqrt(1 - wi.x^2), instead of |wi.z|; z only tells
 // reflection from transmission. hair.h says more.
 //
-// Lobes are white where a tint can live in the list's weight (see bsdf.h).
+// Where a tint is a plain factor, the lobe is white and its weight in the list (bsdf.h) is the
+// tint.
 #pragma once
 
 #include <concepts>
@@ -47,7 +48,7 @@ struct LobeValue {
 struct DeltaSample {
     Vec3 wi{0, 0, 0};
     Color weight;          ///< f |cos wi| / probability
-    float probability = 0; ///< of this direction among the lobe's few; 0 means failure
+    float probability = 0; ///< that the lobe chose this of its directions; 0 means failure
     float eta_scale = 1;   ///< eta^2 after transmission, else 1
 };
 

@@ -3,8 +3,8 @@
 // sampled by normals that reflect to above the surface where the distribution can tell, else by
 // visible normals: the density is D / (4 reflecting_area).
 //
-// What light loses by not leaving at its first bounce comes back, where `compensated`, by a
-// factor that depends on wo (Turquin 2019, "Practical multiple scattering compensation for
+// Light that would leave after several bounces is missing. Where `compensated`, it is given back by
+// a factor that depends on wo (Turquin 2019, "Practical multiple scattering compensation for
 // microfacet models"): with E the white albedo and Fm the mean reflectance,
 //     1 / (1 - Fm (1 - E)),
 // the sum over bounces that each leave by E. A white surface then reflects exactly all. Kulla and

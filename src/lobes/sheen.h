@@ -9,7 +9,7 @@
 // b are the maximum-likelihood fit (the paper minimises a cubic loss), with a kept above 0.05.
 // White; the tint is the list's weight.
 //
-// Light that the layer lets through is the business of who puts something below: 1 - albedo.
+// The layer lets 1 - albedo through to what lies below it, which is not this lobe's concern.
 // As a fit, not reciprocal.
 #pragma once
 

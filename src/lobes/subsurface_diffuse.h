@@ -1,8 +1,8 @@
-// Scattering below the surface, of which the light comes out where it went in: the limit of a mean
-// free path of 0. It has the shape of `BurleyDiffuse`, and a flag of its own, by which light
-// controls and AOVs tell it from what the surface itself reflects.
+// Scattering below the surface in the limit of a mean free path of 0: light comes out where it went
+// in. The lobe has the shape of `BurleyDiffuse`. Its own flag tells light controls and AOVs that
+// the light is not reflected by the surface itself.
 //
-// Left out: the way that the light goes below the surface.
+// Left out: the path of the light below the surface.
 #pragma once
 
 #include "lobes/burley_diffuse.h"

@@ -77,19 +77,20 @@ struct DisneyBuilder {
         b.to.ior = ior;
         float const eta = b.relative_ior(ior), below = at(m.transmission_roughness);
         lobes::BoundaryOptions options{0, film};
-        // What is opaque has no inside: only glass is seen from within.
+        // Only glass is seen from within; there the film's outer side is the glass.
         if (!b.view.entering) options.film.outer_ior = ior;
         if (eta == 1 || (roughness < kMirrorRoughness && below < kMirrorRoughness)) {
             b.add(Color(share), lobes::SpecularDielectric{eta, specular_tint, base, options});
         } else if (below < 0 || below == roughness) {
             b.add(Color(share),
                   lobes::GgxDielectric(facets, eta, specular_tint, base, options, true));
-        } else { // two microsurfaces: one is seen, the other is seen through
+        } else { // one rough surface reflects, another one refracts
             float const alpha = b.alpha(below);
             lobes::Ggx const through{alpha, alpha};
             b.add(Color(share),
                   lobes::GgxDielectric(facets, eta, specular_tint, Color(0), options, true));
-            // Each knows what it keeps for the other, but not how the other scatters.
+            // The surfaces do not share out light by one Fresnel term. So the refraction is scaled
+            // down where both together would scatter more light than arrives.
             lobes::GgxDielectric const seen(facets, eta, Color(1), Color(0), options, true);
             lobes::GgxDielectric const lets_pass(through, eta, Color(0), Color(1), options, true);
             Color const left = rest_of(b.albedo(seen, around)),

@@ -25,7 +25,7 @@ inline constexpr int kMaxRegisters = 128;
 /// Instructions run for one point, where bumps of bumps multiply.
 inline constexpr int kMaxCost = 10000;
 
-/// What a program asks of a SurfacePoint, as a set of bits.
+/// What a program needs to know of a SurfacePoint, as a set of bits.
 enum class Needs : uint8_t {
     nothing = 0,
     uv = 1,
@@ -34,7 +34,7 @@ enum class Needs : uint8_t {
 };
 constexpr Needs operator|(Needs a, Needs b) { return Needs(uint8_t(a) | uint8_t(b)); }
 constexpr Needs& operator|=(Needs& a, Needs b) { return a = a | b; }
-/// Whether `a` holds nothing beyond `b`.
+/// Returns whether `b` has all the bits of `a`.
 constexpr bool within(Needs a, Needs b) { return (uint8_t(a) & ~uint8_t(b)) == 0; }
 
 /// An image, all of whose parameters are its lookup's.

@@ -7,8 +7,8 @@ namespace weft::shading {
 
 namespace {
 
-/// Passed to `describe`: what the unconnected inputs of a node take from the point, and whether
-/// any input is connected.
+/// Passed to `describe`: collects what unconnected inputs take from the point, and whether any
+/// input is connected.
 struct InputNeeds {
     Needs& needs;
     bool& connected;
@@ -33,7 +33,7 @@ struct InputNeeds {
 template <class Node, class... Others>
 constexpr bool is_one_of = (std::is_same_v<Node, Others> || ...);
 
-/// What the node asks of a point beside its inputs.
+/// Returns what the node needs to know of a point, its inputs aside.
 template <class Node>
 constexpr Needs own_needs(Node const&) {
     using namespace scene::nodes;

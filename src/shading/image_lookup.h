@@ -2,10 +2,9 @@
 //
 // `mipmap` reads the two mip levels whose texels are about as large as the footprint, and goes
 // linearly from one to the other (Williams 1983). The level follows the footprint's shorter axis,
-// but is at most two levels finer than the longer one asks for (Heckbert 1989, 2.5): what is then
-// left of the longer axis, the many samples of a pixel average. So one lookup reads 8 texels
-// whatever the angle, grazing views stay sharp, and no texture is read at a much finer level than
-// is seen.
+// but is at most two levels finer than the longer axis asks for (Heckbert 1989, 2.5). The many
+// samples of a pixel average over the rest of the longer axis. So a lookup reads 8 texels at any
+// angle, grazing views stay sharp, and no texture is read at a much finer level than is seen.
 #pragma once
 
 #include <memory>
@@ -27,7 +26,8 @@ struct ImageLookup {
 
     /// `footprint` matters to `mipmap` alone.
     Color at(Vec2 uv, UvFootprint const& footprint = {}) const;
-    /// The mip level, in parts, for a footprint; 0 and less is the image itself.
+    /// Returns the mip level for a footprint, with a fraction; at 0 and below it is the image
+    /// itself.
     float level_of(UvFootprint const& footprint) const;
 };
 

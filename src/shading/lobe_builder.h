@@ -8,7 +8,7 @@
 
 namespace weft::shading {
 
-/// From the roughness that users set to the microfacet distribution's width.
+/// Returns the alpha of a microfacet distribution for the roughness that users set.
 inline float alpha_of(float roughness) {
     return std::max(square(std::clamp(roughness, 0.f, 1.f)), 1e-3f);
 }
@@ -18,24 +18,25 @@ struct LobeBuilder {
     SurfacePoint const& point;
     View const& view;
     Shading& to;
-    Frame frame;                                       ///< of the surface or layer
-    Color weight{1};                                   ///< what layers above leave of the light
-    bool part = false;                                 ///< of another material, see add_presence
-    std::vector<scene::Layer> const* layers = nullptr; ///< of a `layered` one
-    std::vector<uint16_t> const* labels = nullptr;     ///< of the parts
-    uint16_t label = 0;                                ///< of the layer that all of it is in
+    Frame frame;       ///< of the surface or layer
+    Color weight{1};   ///< the fraction of light that the layers above let through
+    bool part = false; ///< of another material, see add_presence
+    std::vector<scene::Layer> const* layers = nullptr; ///< of the `layered` material being built
+    std::vector<uint16_t> const* labels = nullptr; ///< of its parts, as MaterialTraits lists them
+    uint16_t label = 0;         ///< of the innermost labelled layer around this material; 0: none
     LobeCount* count = nullptr; ///< where set, lobes are counted and not added
 
     void build(scene::MaterialId id) const;
     /// The same with the registers of the material's program filled.
     void build(CompiledMaterial const& material, Values const& values) const;
-    /// The same for a part that gets the share `w` of the light, around `f`, in the layer `l`.
+    /// Builds a part of this material, which gets the share `w` of the light. Its lobes lie around
+    /// `f` and carry the label `l`.
     void build_part(scene::MaterialId id, Color const& w, Frame const& f, uint16_t l) const;
-    /// What the opacity of a part lets straight through, which leaves the rest of the weight, and
-    /// what the part emits. The world looks after those of a whole material.
+    /// Adds what a part's opacity lets straight through, leaves the rest of the weight to the part,
+    /// and adds what it emits. The world looks after opacity and emission of a whole material.
     template <class M>
     void add_presence(M const& m, Values const& at);
-    /// The label of a part of this material, or else that of the whole.
+    /// Returns the label of the i-th part, or this material's own where the part has none.
     uint16_t label_of(size_t i) const { return (*labels)[i] ? (*labels)[i] : label; }
 
     void operator()(scene::Diffuse const& m, Values const& at) const;
@@ -73,16 +74,17 @@ struct LobeBuilder {
             to.bsdf.add_looked_up(weight * w, lobe, label, albedo);
         return albedo;
     }
-    /// How much light from everywhere a lobe around `f` sends towards wo.
+    /// Returns the albedo of a lobe around `f` for the view's wo.
     template <class L>
     Color albedo(L const& lobe, Frame const& f) const {
         return lobe.albedo(f.to_local(view.wo));
     }
-    /// Around the world-space normal of a `normal` input; (0, 0, 0), nothing connected, is `frame`.
+    /// Returns the shading frame around the value of a `normal` input, in world space. (0, 0, 0),
+    /// where nothing is connected, gives the current frame.
     Frame frame_around(Vec3 const& normal) const {
         return normal == Vec3(0) ? frame : shading_frame(point, normalize(normal), view);
     }
-    /// The width of facets for a material's roughness, not below what the view asks for.
+    /// Returns the alpha for a material's roughness, or for the view's least roughness if greater.
     float alpha(float roughness) const {
         return alpha_of(std::max(roughness, view.look.least_roughness));
     }
@@ -107,8 +109,8 @@ inline float unit(float x) { return std::clamp(x, 0.f, 1.f); }
 /// 1 - c, at least 0.
 inline Color rest_of(Color const& c) { return unit(Color(1) - c); }
 
-/// What a clear layer of index `ior` lets through, in and out, of the light seen under `cos_o`: a
-/// layer of thickness 1 lets `tint` through along the normal.
+/// Returns the fraction of light that a clear layer of index `ior` lets through on its way in and
+/// out, seen under the cosine `cos_o`. A layer of thickness 1 lets `tint` through along the normal.
 inline Color layer_transmittance(Color const& tint, float thickness, float ior, float cos_o) {
     if (tint == Color(1)) return tint;
     float const cos_t = safe_sqrt(1 - (1 - cos_o * cos_o) / square(ior));

@@ -36,9 +36,10 @@ struct Shading {
     explicit Shading(lobes::Bsdf const& b) : bsdf(b) {}
 };
 
-/// The frame in which lobes work: around the shading normal `n` (of the front) on wo's side, bent
-/// just enough to be visible from wo where interpolation turned it away (so that silhouettes are
-/// not black); s along the point's dpdu, where that is known.
+/// Returns the frame in which lobes work. Its normal is `n`, the shading normal of the front,
+/// turned to wo's side. Where interpolation has turned `n` away from wo, it is bent until it is
+/// just visible, so that silhouettes are not black. s lies along the point's dpdu, where that is
+/// known.
 Frame shading_frame(SurfacePoint const& point, Vec3 const& n, View const& view);
 
 /// A material whose inputs read the registers of its program.
@@ -64,15 +65,15 @@ class Materials {
     /// Bsdf has room for.
     void compile(scene::Scene const& scene, scene::MaterialId id, GraphCompiler& compiler);
 
-    /// What the programs of a compiled material ask of a point.
+    /// Returns what the programs of a compiled material and of its parts need to know of a point.
     Needs needs(scene::MaterialId id) const;
-    /// Whether it looks at the direction in which u grows.
+    /// Returns whether the material or a part needs the direction in which u grows.
     bool uses_tangents(scene::MaterialId id) const;
     /// Adds the lobes at `point` and prepares them, adds emission, and sets the index inside.
     void shade(scene::MaterialId id, SurfacePoint const& point, View const& view,
                Shading& to) const;
 
-    /// The part of light that goes on towards -view.wo as if there were no surface: the weights of
+    /// Returns the fraction of light that goes straight through towards view.wo: the weights of the
     /// `Transparent` lobes.
     Color straight(scene::MaterialId id, SurfacePoint const& point, View const& view) const;
 

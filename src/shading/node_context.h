@@ -1,4 +1,4 @@
-// What the function of a node sees: the point, and the registers written so far.
+// What the function of a node can read: the point, and the registers written so far.
 #pragma once
 
 #include "shading/graph.h"

@@ -9,7 +9,8 @@
 
 namespace weft::shading {
 
-/// The light a surface emits: the product of what an `emission` or a material says, and a tint.
+/// The light that a surface emits: colour times strength, from its `emission` or its material,
+/// times a tint.
 struct Emission {
     scene::Input<Color> color{Color(0)};
     scene::Input<float> strength{1};
@@ -17,7 +18,7 @@ struct Emission {
     explicit operator bool() const { return color != scene::Input<Color>{Color(0)}; }
 };
 
-/// How much of a surface is there: the product of what its instance and its material say.
+/// The opacity of a surface: that of its instance times that of its material.
 struct Opacity {
     scene::Input<float> instance{1};
     scene::Input<float> material{1};
@@ -29,10 +30,10 @@ class Textures {
     Textures() = default;
     explicit Textures(size_t count) : roots_(count) {}
 
-    /// Compiles the network of `id` (none: nothing to do). `where`: who asks, for messages.
+    /// Compiles the network of `id`, if there is one. `where` is the place that messages name.
     void prepare(GraphCompiler& compiler, scene::TextureId id, SourceLocation const& where);
 
-    /// What the prepared network of `id` asks of a point.
+    /// Returns what the prepared network of `id` needs to know of a point.
     Needs needs(scene::TextureId id) const { return id ? root(id).program.needs : Needs::nothing; }
     Needs needs(Emission const& e) const {
         return needs(e.color.texture) | needs(e.strength.texture);
@@ -72,8 +73,8 @@ class Textures {
         return std::clamp(at(o.instance, place), 0.f, 1.f) *
                std::clamp(at(o.material, place), 0.f, 1.f);
     }
-    /// Pixels of the largest image in a prepared network as (width, height); what resolves most
-    /// patterns where there is none; (1, 1) for a constant.
+    /// Returns (width, height) of the largest image in a prepared network. Patterns count as at
+    /// least 512 x 256, which resolves most of them; a constant is (1, 1).
     Vec2i resolution(scene::TextureId id) const;
 
   private:
