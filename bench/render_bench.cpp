@@ -60,7 +60,7 @@ RenderFigures measure_render(std::string const& scene_file, world::RayRecorder& 
     for (auto const& list : recorder.lists()) list->clear();
     world.record_rays(&recorder);
     session::RenderOptions recording;
-    recording.spp = recorded_spp;
+    recording.limits.spp = recorded_spp;
     session::render(*stage, job, recording);
     world.record_rays(nullptr);
     RayCount const rays = count_rays(recorder);
@@ -69,7 +69,7 @@ RenderFigures measure_render(std::string const& scene_file, world::RayRecorder& 
     std::vector<image::Image> images;
     for (int round = 0; round < rounds; ++round) {
         session::RenderOptions options;
-        options.seed = uint32_t(round);
+        options.picture.seed = uint32_t(round);
         Stopwatch const watch;
         session::RenderResult result = session::render(*stage, job, options);
         render = keep_best(render, watch.stop());

@@ -62,22 +62,30 @@ film::Region BlockGrid::block(size_t index) const {
     return {{x, y}, {std::min(x + kBlock, region.to.x), std::min(y + kBlock, region.to.y)}};
 }
 
-double typical_brightness(film::Film const& film) {
+double typical_brightness(film::Film const& film, std::function<bool()> const& stop) {
+    film::Region const& region = film.region();
     double sum = 0;
-    for_pixels(film.region(),
-               [&](int x, int y) { sum += std::sqrt(std::max(0.0, brightness(film.mean(x, y)))); });
-    double const mean = sum / double(film.region().pixels());
+    for (int y = region.from.y; y < region.to.y; ++y) {
+        if (stop()) return 0;
+        for (int x = region.from.x; x < region.to.x; ++x)
+            sum += std::sqrt(std::max(0.0, brightness(film.mean(x, y))));
+    }
+    double const mean = sum / double(region.pixels());
     return mean * mean;
 }
 
-std::vector<float> block_errors(film::Film const& film) {
-    double const darkest = kDarkest * typical_brightness(film);
+std::vector<float> block_errors(film::Film const& film, std::function<bool()> const& stop) {
+    double const darkest = kDarkest * typical_brightness(film, stop);
     BlockGrid const grid(film.region());
     std::vector<float> errors(grid.size());
     std::vector<Squares> blocks;
-    for (size_t i = 0; i < errors.size(); ++i)
-        blocks.push_back(squares_of(film, grid.block(i), darkest));
+    auto const stops_at = [&](size_t i) { return i % size_t(grid.columns) == 0 && stop(); };
     for (size_t i = 0; i < errors.size(); ++i) {
+        if (stops_at(i)) return {};
+        blocks.push_back(squares_of(film, grid.block(i), darkest));
+    }
+    for (size_t i = 0; i < errors.size(); ++i) {
+        if (stops_at(i)) return {};
         double square = blocks[i].sum / blocks[i].pixels;
         for (int radius : {1, 2, 4}) square = std::max(square, rare_mean(grid, blocks, i, radius));
         errors[i] = float(std::sqrt(square));

@@ -25,6 +25,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "film/film.h"
@@ -52,13 +53,17 @@ struct BlockGrid {
     int columns, rows;
 };
 
-/// (mean of the square roots of the pixels' brightness)^2: what a picture's middling parts have,
-/// whatever few very bright pixels there are.
-double typical_brightness(film::Film const& film);
+/// Returns (mean of the square roots of the pixels' brightness)^2: what a picture's middling parts
+/// have, whatever few very bright pixels there are. 0 where `stop`, asked once per row, said so.
+double typical_brightness(
+    film::Film const& film, std::function<bool()> const& stop = [] { return false; });
 
 /// The estimated relative error of each block: its own, or the share of what few pixels make in the
-/// windows of 3, 5 and 9 blocks a side around it. Needs a film with half sums.
-std::vector<float> block_errors(film::Film const& film);
+/// windows of 3, 5 and 9 blocks a side around it. Needs a film with half sums. Large pictures take
+/// a while: `stop` is asked once per row of pixels or blocks, and the result is empty where it said
+/// so.
+std::vector<float> block_errors(
+    film::Film const& film, std::function<bool()> const& stop = [] { return false; });
 
 /// Which blocks need more samples for a relative error of `noise`: those beyond it and the eight
 /// around each, unless their pixels have `limit` samples.

@@ -11,8 +11,6 @@
 #include "base/file_bytes.h"
 #include "base/hash.h"
 #include "image/atomic_file.h"
-#include "scene/scene_hash.h"
-#include "schema/text.h"
 #include "session/adaptive.h"
 
 namespace weft::session {
@@ -83,28 +81,7 @@ RenderState from_json(Json const& j) {
     return s;
 }
 
-template <class Settings>
-std::string text_of(Settings const& settings) {
-    return match(settings, [](auto const& s) {
-        return std::string(s.info.type) + schema::write_attributes(s);
-    });
-}
-
-std::string channels_text(film::Layout const& layout) {
-    std::string text;
-    for (std::string const& name : layout.channel_names()) text += (text.empty() ? "" : " ") + name;
-    return text;
-}
-
-/// The samples per pixel that they are made for, where those are others than the picture's.
-std::string footprint_text(scene::RenderJob const& job, RenderOptions const& options) {
-    int const samples = footprint_samples(job, options);
-    return uint32_t(samples) == sample_limit(job, options)
-               ? "as samples per pixel"
-               : fmt::format("as of {} samples", samples);
-}
-
-/// Pixel samples that a finished part has in its film.
+/// Returns whether the film has all samples of the state's part.
 bool is_finished(RenderState const& s) {
     uint32_t const last = s.part.last == 0 ? s.samples : s.part.last;
     for (film::Region const& tile : make_tiles(s.film.region(), s.tile_size, s.part))
@@ -116,38 +93,29 @@ bool is_finished(RenderState const& s) {
 
 } // namespace
 
-Identity identify(lights::Stage const& stage, scene::RenderJob const& job,
-                  RenderOptions const& options) {
-    film::Region const region = region_of(stage.world(), options);
-    Vec2i const size = stage.world().camera().size();
-    film::Layout const layout = make_layout(stage, job, options);
-    return {{"version", options.version},
-            {"scene", fmt::format("{:016x}", scene::scene_hash(*job.scene))},
-            {"integrator", text_of(job.integrator)},
-            {"sampler", match(job.sampler, [](auto const& s) { return std::string(s.info.type); })},
-            {"samples per pixel", std::to_string(sample_limit(job, options))},
-            {"texture footprints", footprint_text(job, options)},
-            {"noise", options.noise > 0 ? fmt::format("{}", options.noise) : "any"},
-            {"seed", std::to_string(options.seed)},
-            {"size", fmt::format("{}x{}", size.x, size.y)},
-            {"crop",
-             fmt::format("{},{},{},{}", region.from.x, region.from.y, region.to.x, region.to.y)},
-            {"channels", channels_text(layout)},
-            {"kernel", options.kernel.empty() ? "any" : options.kernel}};
+RenderState make_state(RenderResult const& result, Plan const& plan, RenderOptions const& options) {
+    RenderState s;
+    s.identity = options.identity;
+    s.part = options.picture.part;
+    s.tile_size = options.tile_size;
+    s.samples = plan.samples;
+    s.pass = result.pass;
+    s.seconds = result.seconds;
+    s.bad_samples = result.bad_samples;
+    s.first_bad_samples = result.first_bad_samples;
+    return s;
 }
 
-std::string difference(Identity const& here, Identity const& there) {
-    auto const value = [](Identity const& all, std::string const& key) -> std::string {
-        for (auto const& [name, text] : all)
-            if (name == key) return text;
-        return "unknown";
-    };
-    std::string text;
-    for (auto const& [key, mine] : here)
-        if (std::string const other = value(there, key); other != mine)
-            text += fmt::format("{}{} is '{}' here and '{}' there", text.empty() ? "" : "; ", key,
-                                mine, other);
-    return text;
+RenderState starting_state(Plan const& plan, RenderOptions const& options) {
+    RenderState state = make_state({}, plan, options);
+    state.film = film::Film(plan.region, plan.layout);
+    return state;
+}
+
+RenderState to_state(RenderResult&& result, Plan const& plan, RenderOptions const& options) {
+    RenderState state = make_state(result, plan, options);
+    state.film = std::move(result.film);
+    return state;
 }
 
 std::string write_state(RenderState const& state) {

@@ -7,24 +7,11 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "scene/job.h"
 #include "session/render.h"
 
 namespace weft::session {
-
-/// All that decides which value a sample has, in words: {"seed", "0"}, ... Renders whose identities
-/// are equal make the same samples.
-using Identity = std::vector<std::pair<std::string, std::string>>;
-
-/// Of a render that `render` would make. `options.kernel` counts as the user gave it.
-Identity identify(lights::Stage const& stage, scene::RenderJob const& job,
-                  RenderOptions const& options);
-
-/// "seed is 1 here and 0 there; ...", or "" where they are equal.
-std::string difference(Identity const& here, Identity const& there);
 
 struct RenderState {
     Identity identity;
@@ -39,18 +26,25 @@ struct RenderState {
     film::Film film;
 };
 
-/// The state of that render before its first sample.
-RenderState starting_state(lights::Stage const& stage, scene::RenderJob const& job,
-                           RenderOptions const& options);
+/// Returns everything about a result that a state file keeps but for its film, which is empty.
+RenderState make_state(RenderResult const& result, Plan const& plan, RenderOptions const& options);
 
-/// As bytes.
+/// Returns the state of a render before its first sample.
+RenderState starting_state(Plan const& plan, RenderOptions const& options);
+
+/// Returns everything about a result that a state file keeps; its film is moved there.
+RenderState to_state(RenderResult&& result, Plan const& plan, RenderOptions const& options);
+
+/// Returns the state as bytes.
 std::string write_state(RenderState const& state);
 
 /// Throws InputError, naming `name`, where the bytes are no state, damaged, or of another version.
 RenderState read_state(std::string_view bytes, std::string const& name);
 
-/// The same in a file, whose place it takes in one step (image/atomic_file.h). Throws IoError.
+/// Writes the state to a file, whose place it takes in one step (image/atomic_file.h). Throws
+/// IoError.
 void save_state(std::string const& path, RenderState const& state);
+/// Throws IoError where the file cannot be read, and InputError as `read_state` does.
 RenderState load_state(std::string const& path);
 
 /// Joins parts to one picture, in the order of their samples: shards give the bits of a single

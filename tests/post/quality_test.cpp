@@ -41,8 +41,8 @@ class DenoisingQuality : public ::testing::TestWithParam<QualityCase> {
         scene::RenderJob const job = io::read_scene_file(path).jobs.at(0);
         auto const stage = lights::Stage::commit(job.scene, {"", {160, 120}});
         session::RenderOptions options;
-        options.spp = 32;
-        options.aovs = {film::Aov::denoise_albedo, film::Aov::denoise_normal};
+        options.limits.spp = 32;
+        options.picture.aovs = {film::Aov::denoise_albedo, film::Aov::denoise_normal};
         return session::render(*stage, job, options).film.image();
     }
 };

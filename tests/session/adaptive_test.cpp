@@ -181,7 +181,7 @@ std::vector<double> block_means(image::Image const& image, int block) {
 std::vector<Estimate> over_seeds(TestScene const& scene, RenderOptions options, int renders) {
     std::vector<std::vector<double>> all;
     for (int i = 0; i < renders; ++i) {
-        ++options.seed;
+        ++options.picture.seed;
         all.push_back(block_means(render(*scene.stage, scene.job, options).image, 8));
         double sum = 0;
         for (double m : all.back()) sum += m;
@@ -199,9 +199,9 @@ std::vector<Estimate> over_seeds(TestScene const& scene, RenderOptions options, 
 
 RenderOptions with(int spp, double noise, uint32_t seed) {
     RenderOptions o;
-    o.spp = spp;
-    o.noise = noise;
-    o.seed = seed;
+    o.limits.spp = spp;
+    o.limits.noise = noise;
+    o.picture.seed = seed;
     return o;
 }
 

@@ -58,8 +58,8 @@ RenderResult render_aovs(std::string const& contents, std::vector<Aov> aovs, int
                          std::string const& integrator = "type=\"path\" depth=\"8\"") {
     TestScene const scene = make_scene(contents, integrator);
     RenderOptions options;
-    options.aovs = std::move(aovs);
-    options.spp = spp;
+    options.picture.aovs = std::move(aovs);
+    options.limits.spp = spp;
     return render(*scene.stage, scene.job, options);
 }
 
@@ -202,18 +202,18 @@ TEST(Aovs, AreTheSameHoweverTheyAreCutUp) {
     for (size_t i = 0; i < film::kAovCount; ++i) all.push_back(Aov(i));
     TestScene const scene = make_scene(kCamera + kScenes.at("glass and a medium inside"));
     RenderOptions options;
-    options.aovs = all;
-    options.spp = 5;
+    options.picture.aovs = all;
+    options.limits.spp = 5;
     options.threads = 1;
     RenderResult const one = render(*scene.stage, scene.job, options);
     options.threads = 4;
     options.tile_size = 7;
     EXPECT_TRUE(render(*scene.stage, scene.job, options).film == one.film);
     // Tiles merge to the whole.
-    film::Film merged(one.region, one.film.layout());
+    film::Film merged(one.film.region(), one.film.layout());
     for (film::Region const& part :
          {film::Region{{0, 0}, {17, 30}}, film::Region{{17, 0}, {40, 30}}}) {
-        options.crop = part;
+        options.picture.crop = part;
         merged.merge(render(*scene.stage, scene.job, options).film);
     }
     EXPECT_TRUE(merged == one.film);
@@ -232,11 +232,11 @@ TEST(Aovs, ComponentsDoNotDependOnTheStrategy) {
         TestScene const scene = make_scene(contents, "type=\"path\" depth=\"2\" strategy=\"" +
                                                          std::string(strategy) + "\"");
         RenderOptions options;
-        options.aovs = {Aov::direct_diffuse, Aov::direct_specular};
-        options.spp = 16;
+        options.picture.aovs = {Aov::direct_diffuse, Aov::direct_specular};
+        options.limits.spp = 16;
         double sums[2]{}, squares[2]{};
         for (int seed = 0; seed < seeds; ++seed) {
-            options.seed = uint32_t(100 * estimates.size() + size_t(seed));
+            options.picture.seed = uint32_t(100 * estimates.size() + size_t(seed));
             Channels const c(render(*scene.stage, scene.job, options).film);
             int k = 0;
             for (char const* name : {"direct_diffuse.R", "direct_specular.R"}) {
@@ -285,10 +285,10 @@ Estimate over_seeds(std::string const& contents, std::vector<Aov> const& aovs,
                     std::string const& channel, std::string const& integrator, uint32_t seed) {
     TestScene const scene = make_scene(contents, integrator);
     RenderOptions options;
-    options.aovs = aovs;
-    options.spp = 16;
+    options.picture.aovs = aovs;
+    options.limits.spp = 16;
     std::vector<double> means;
-    for (options.seed = seed; options.seed < seed + 24; ++options.seed) {
+    for (options.picture.seed = seed; options.picture.seed < seed + 24; ++options.picture.seed) {
         Channels const c(render(*scene.stage, scene.job, options).film);
         double sum = 0;
         for (size_t i = 0; i < c.size(); ++i) sum += double(c.at(channel, i));

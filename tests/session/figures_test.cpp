@@ -15,8 +15,8 @@ std::string const kFolder = std::string(WEFT_SOURCE_DIR) + "/scenes/figures/";
 RenderResult render_figure(lights::Stage const& stage, scene::RenderJob const& job, int spp,
                            uint32_t seed) {
     RenderOptions options;
-    options.spp = spp;
-    options.seed = seed;
+    options.limits.spp = spp;
+    options.picture.seed = seed;
     return render(stage, job, options);
 }
 

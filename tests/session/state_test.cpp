@@ -5,7 +5,9 @@
 
 #include "image/texture_cache.h"
 #include "scene/scene_hash.h"
+#include "session/passes.h"
 #include "session/render_state.h"
+#include "session/tile_renderer.h"
 #include "tests/support/scenes.h"
 
 namespace weft::session {
@@ -41,10 +43,17 @@ TestScene scene_with_lamp(std::string const& candela) {
                        folder.path());
 }
 
+Identity identity_of(TestScene const& scene, RenderOptions const& options) {
+    return identify(make_plan(*scene.stage, scene.job, options), options,
+                    scene::scene_hash(*scene.job.scene));
+}
+
 RenderState part_of(TestScene const& scene, Part const& part, RenderOptions options = {}) {
-    options.part = part;
+    options.picture.part = part;
     options.tile_size = 8;
-    return to_state(render(*scene.stage, scene.job, options), *scene.stage, scene.job, options);
+    Plan const plan = make_plan(*scene.stage, scene.job, options);
+    options.identity = identity_of(scene, options);
+    return to_state(render(plan, options), plan, options);
 }
 
 std::string message(std::vector<RenderState> parts) {
@@ -133,15 +142,15 @@ TEST(Identity, KnowsWhatTexturesAreFilteredFor) {
     auto const identity = [&](char const* count, RenderOptions const& options) {
         TestScene const scene = make_scene(contents, "type=\"path\"", "",
                                            "type=\"sobol\" count=\"" + std::string(count) + "\"");
-        return identify(*scene.stage, scene.job, options);
+        return identity_of(scene, options);
     };
     RenderOptions options;
-    options.noise = 0.1;
+    options.limits.noise = 0.1;
     EXPECT_NE(difference(identity("4", options), identity("16", options)), "");
-    options.spp = 64;
+    options.limits.spp = 64;
     EXPECT_EQ(difference(identity("4", options), identity("16", options)), "");
     RenderOptions stated;
-    stated.spp = 16;
+    stated.limits.spp = 16;
     EXPECT_EQ(difference(identity("4", stated), identity("16", {})), "");
 }
 
@@ -192,7 +201,7 @@ TEST(Parts, ThatDoNotFitAreRefusedByName) {
     EXPECT_EQ(message({part_of(scene, {1, 1, 0, 6}), part_of(scene, {1, 1, 5, 12})}),
               "cannot merge: samples 5:6 are there twice, in part1 too");
     RenderOptions other;
-    other.seed = 3;
+    other.picture.seed = 3;
     EXPECT_EQ(message({one, two, part_of(scene, {3, 3, 0, 0}, other)}),
               "cannot merge: part2 is of another render than part0 ('here'): seed is '0' here and "
               "'3' there");
@@ -213,15 +222,16 @@ TEST(Parts, ThatDoNotFitAreRefusedByName) {
 TEST(Identity, SaysWhatDiffers) {
     TestScene const scene = small_scene();
     RenderOptions a;
-    auto const of = [&](RenderOptions const& o) { return identify(*scene.stage, scene.job, o); };
+    auto const of = [&](RenderOptions const& o) { return identity_of(scene, o); };
     EXPECT_EQ(difference(of(a), of(a)), "");
     std::vector<std::pair<RenderOptions, std::string>> const others{
-        {{.spp = 13}, "samples per pixel is '12' here and '13' there"},
-        {{.crop = film::Region{{0, 0}, {8, 8}}}, "crop is '0,0,45,30' here and '0,0,8,8' there"},
-        {{.seed = 1}, "seed is '0' here and '1' there"},
-        {{.aovs = {film::Aov::uv}}, "channels is 'R G B"},
-        {{.version = "2"}, "version is '' here and '2' there"},
-        {{.kernel = "avx2"}, "kernel is 'any' here and 'avx2' there"},
+        {{.limits = {.spp = 13}}, "samples per pixel is '12' here and '13' there"},
+        {{.picture = {.crop = film::Region{{0, 0}, {8, 8}}}},
+         "crop is '0,0,45,30' here and '0,0,8,8' there"},
+        {{.picture = {.seed = 1}}, "seed is '0' here and '1' there"},
+        {{.picture = {.aovs = {film::Aov::uv}}}, "channels is 'R G B"},
+        {{.picture = {.version = "2"}}, "version is '' here and '2' there"},
+        {{.picture = {.kernel = "avx2"}}, "kernel is 'any' here and 'avx2' there"},
     };
     for (auto const& [other, expected] : others)
         EXPECT_EQ(difference(of(a), of(other)).rfind(expected, 0), 0u)
@@ -232,42 +242,85 @@ TEST(Identity, SaysWhatDiffers) {
     EXPECT_EQ(difference(of(a), of(same)), "");
 }
 
-/// Looks at a render while it goes on and keeps every state.
-std::vector<RenderState> states_of(TestScene const& scene, RenderOptions options) {
-    std::vector<RenderState> states;
-    options.watchers = {{0.005, [&](RenderState const& s) { states.push_back(s); }}};
-    render(*scene.stage, scene.job, options);
-    return states;
+/// Returns the state of a render that is stopped after `samples` pixel samples.
+RenderState stopped_state(Plan const& plan, RenderOptions const& options, int samples) {
+    RenderResult result;
+    result.film = film::Film(plan.region, plan.layout);
+    integrator::PixelRenderer const renderer(plan.stage, plan.job.integrator, plan.job.sampler,
+                                             options.picture.seed, plan.footprint_samples);
+    Gate gate;
+    TileRenderer tiles(renderer, plan.tags, 0, result, gate);
+    ProgressMeter meter(options, 0, 0);
+    Passes passes(plan, options, result, gate, meter);
+    int left = samples;
+    do {
+        for (film::Region const& tile : make_tiles(plan.region, options.tile_size))
+            tiles.render(
+                tile, [&] { return left == 0 || left-- == 0; }, [](uint32_t) {});
+    } while (left > 0 && passes.next() == Passes::Next::Pass);
+    EXPECT_EQ(left, 0) << "the render has fewer samples";
+    return to_state(std::move(result), plan, options);
 }
 
 void expect_resumed_is_same(TestScene const& scene, RenderOptions options) {
-    RenderResult const whole = render(*scene.stage, scene.job, options);
-    std::vector<RenderState> const states = states_of(scene, options);
-    ASSERT_FALSE(states.empty());
-    size_t partial = 0;
-    for (size_t i = 0; i < states.size(); i += 1 + states.size() / 6) {
-        RenderState const state = read_state(write_state(states[i]), "state");
-        partial += !(state.film == whole.film);
+    Plan const plan = make_plan(*scene.stage, scene.job, options);
+    RenderResult const whole = render(plan, options);
+    auto const all = int(whole.pixel_samples);
+    // Within a pixel and after one, within the first pass and within late ones.
+    for (int samples :
+         {0, 1, 1000, 45 * 30, 45 * 30 + 1, 3 * 45 * 30, all / 2, all - 777, all - 1}) {
+        RenderState const stopped = stopped_state(plan, options, samples);
+        EXPECT_FALSE(stopped.film == whole.film);
+        RenderState const state = read_state(write_state(stopped), "state");
         options.resume = &state;
-        RenderResult const resumed = render(*scene.stage, scene.job, options);
-        EXPECT_TRUE(resumed.film == whole.film) << "state " << i << " of " << states.size();
+        RenderResult const resumed = render(plan, options);
+        EXPECT_TRUE(resumed.film == whole.film) << "stopped after " << samples << " of " << all;
         EXPECT_EQ(resumed.least_samples, whole.least_samples);
         EXPECT_EQ(resumed.pixel_samples, whole.pixel_samples);
     }
-    EXPECT_GT(partial, 0u);
 }
 
 TEST(Resume, GivesTheSameBits) {
     RenderOptions options;
-    options.spp = 100;
+    options.limits.spp = 100;
     expect_resumed_is_same(small_scene(), options);
 }
 
 TEST(Resume, OfAnAdaptiveRenderGivesTheSameBits) {
     RenderOptions options;
-    options.spp = 200;
-    options.noise = 0.04;
+    options.limits.spp = 200;
+    options.limits.noise = 0.04;
     expect_resumed_is_same(small_scene(), options);
+}
+
+TEST(Watcher, SeesTheFirstSamplesOfEachPixel) {
+    TestScene const scene = make_scene(R"(
+        <camera type="perspective" width="6" height="4" fov="50"/>
+        <instance><shape type="sphere"/><bsdf type="diffuse"/><transform><translate z="4"/></transform></instance>
+        <light type="envmap"><texture type="constant" value="0.3,0.4,0.5"/></light>)");
+    RenderOptions options;
+    options.limits.spp = 1 << 24;
+    std::atomic<bool> cancel{false};
+    options.limits.cancel = &cancel;
+    std::vector<RenderState> states;
+    options.observers.watchers = {{0.001, [&](RenderState const& s) {
+                                       states.push_back(s);
+                                       cancel = states.size() == 3 && s.film.least_samples() > 0;
+                                       if (states.size() == 3) states.erase(states.begin());
+                                   }}};
+    RenderResult const result = render(*scene.stage, scene.job, options);
+    EXPECT_TRUE(result.cancelled);
+    integrator::PixelRenderer const renderer(*scene.stage, scene.job.integrator, scene.job.sampler,
+                                             0);
+    film::Film const& film = states.back().film;
+    for (int y = 0; y < 4; ++y)
+        for (int x = 0; x < 6; ++x) {
+            uint32_t const n = film.counts(x, y).all;
+            EXPECT_GE(result.film.counts(x, y).all, n);
+            double sum = 0;
+            for (uint32_t s = 0; s < n; ++s) sum += double(renderer.sample({x, y}, s).g);
+            ASSERT_EQ(film.mean(x, y).g, float(sum * (1.0 / n)));
+        }
 }
 
 } // namespace

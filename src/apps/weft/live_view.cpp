@@ -144,4 +144,20 @@ session::Watcher TevClient::watcher() {
     return {1, [this](session::RenderState const& state) { show(state.film); }};
 }
 
+LiveViews::LiveViews(LiveArguments const& a, post::DisplayChain const& chain,
+                     std::string const& name) {
+    if (!a.watch.empty()) file_.emplace(a.watch, chain);
+    if (!a.tev.empty()) tev_.emplace(a.tev, name);
+}
+
+void LiveViews::watch(std::vector<session::Watcher>& watchers) {
+    if (file_) watchers.push_back(file_->watcher());
+    if (tev_) watchers.push_back(tev_->watcher());
+}
+
+void LiveViews::show(film::Film const& film) {
+    if (tev_) tev_->show(film);
+    if (file_) file_->show(film.mean());
+}
+
 } // namespace weft::apps

@@ -2,12 +2,19 @@
 // (github.com/Tom94/tev), which takes pictures over TCP.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "post/display.h"
 #include "session/render_state.h"
 
 namespace weft::apps {
+
+/// Where the user wants to see a render while it goes on; empty texts: nowhere.
+struct LiveArguments {
+    std::string watch; ///< a file
+    std::string tev;   ///< "host:port"
+};
 
 /// The beauty so far in a file, each time a whole one. A file that cannot be written is no reason
 /// to stop a render, nor to lose its end: that is told once.
@@ -47,6 +54,23 @@ class TevClient {
     std::string name_;
     int socket_ = -1;
     bool created_ = false;
+};
+
+/// All views of one render that the user asked for.
+class LiveViews {
+  public:
+    /// Throws InputError as the views do. `name` is what the picture is called.
+    LiveViews(LiveArguments const& arguments, post::DisplayChain const& chain,
+              std::string const& name);
+
+    /// Adds watchers that refer to this object.
+    void watch(std::vector<session::Watcher>& watchers);
+    /// Shows the last state of the render.
+    void show(film::Film const& film);
+
+  private:
+    std::optional<WatchedPicture> file_;
+    std::optional<TevClient> tev_;
 };
 
 } // namespace weft::apps

@@ -7,7 +7,6 @@
 
 #include "film/cryptomatte.h"
 #include "image/write.h"
-#include "scene/scene_hash.h"
 #include "schema/text.h"
 
 namespace weft::apps {
@@ -38,7 +37,7 @@ image::Metadata metadata(session::RenderResult const& r, uint32_t seed) {
     if (r.noise) {
         m["weft:noise"] = fmt::format("{:.4g}", *r.noise);
         m["weft:meanSamplesPerPixel"] =
-            fmt::format("{:.1f}", r.pixel_samples / double(r.region.pixels()));
+            fmt::format("{:.1f}", r.pixel_samples / double(r.film.region().pixels()));
     }
     return m;
 }
@@ -57,34 +56,7 @@ std::array<float, 16> world_to_camera(scene::Camera const& camera) {
     return rows;
 }
 
-image::ExrHeader make_header(session::RenderResult const& r, scene::Scene const& scene,
-                             Vec2i full_size, uint32_t seed) {
-    image::ExrHeader header;
-    header.texts = metadata(r, seed);
-    header.texts["weft:sceneHash"] = fmt::format("{:016x}", scene::scene_hash(scene));
-    // As builds do, for whoever wants the same bytes from the same input.
-    if (!std::getenv("SOURCE_DATE_EPOCH"))
-        header.texts["weft:renderSeconds"] = fmt::format("{:.3f}", r.seconds);
-    scene::Camera const& camera = scene.cameras[size_t(scene.contents.camera.index)];
-    header.texts["weft:camera"] = match(camera, [](auto const& c) {
-        return fmt::format("<camera type=\"{}\"{}/>", c.info.type, schema::write_attributes(c));
-    });
-    for (size_t i = 0; i < film::kCryptomattes; ++i) {
-        auto const aov = film::Aov(size_t(film::Aov::crypto_object) + i);
-        if (!r.film.layout().has(aov)) continue;
-        header.texts.merge(film::cryptomatte_metadata(film::cryptomatte_name(aov),
-                                                      r.tags.cryptomattes[i].manifest));
-    }
-    header.chromaticities = image::kRec709;
-    header.world_to_camera = world_to_camera(camera);
-    header.x = r.region.from.x;
-    header.y = r.region.from.y;
-    header.full_width = full_size.x;
-    header.full_height = full_size.y;
-    return header;
-}
-
-/// The channels of `image` by these names.
+/// Returns the channels of `image` that have these names.
 image::Image select(image::Image const& image, std::vector<std::string> const& names) {
     image::Image result = image::make_image(image.width, image.height, int(names.size()));
     for (size_t c = 0; c < names.size(); ++c) {
@@ -98,17 +70,41 @@ image::Image select(image::Image const& image, std::vector<std::string> const& n
 
 } // namespace
 
+image::ExrHeader picture_header(session::RenderResult const& r, session::Plan const& plan,
+                                uint64_t scene_hash, uint32_t seed) {
+    scene::Scene const& scene = *plan.job.scene;
+    image::ExrHeader header;
+    header.texts = metadata(r, seed);
+    header.texts["weft:sceneHash"] = fmt::format("{:016x}", scene_hash);
+    // As builds do, for whoever wants the same bytes from the same input.
+    if (!std::getenv("SOURCE_DATE_EPOCH"))
+        header.texts["weft:renderSeconds"] = fmt::format("{:.3f}", r.seconds);
+    scene::Camera const& camera = scene.cameras[size_t(scene.contents.camera.index)];
+    header.texts["weft:camera"] = match(camera, [](auto const& c) {
+        return fmt::format("<camera type=\"{}\"{}/>", c.info.type, schema::write_attributes(c));
+    });
+    for (size_t i = 0; i < film::kCryptomattes; ++i) {
+        auto const aov = film::Aov(size_t(film::Aov::crypto_object) + i);
+        if (!r.film.layout().has(aov)) continue;
+        header.texts.merge(film::cryptomatte_metadata(film::cryptomatte_name(aov),
+                                                      plan.tags.cryptomattes[i].manifest));
+    }
+    header.chromaticities = image::kRec709;
+    header.world_to_camera = world_to_camera(camera);
+    header.x = plan.region.from.x;
+    header.y = plan.region.from.y;
+    Vec2i const full_size = plan.stage.world().camera().size();
+    header.full_width = full_size.x;
+    header.full_height = full_size.y;
+    return header;
+}
+
 image::Metadata plain_texts(image::ExrHeader const& header) {
     image::Metadata result;
     for (char const* key : {"Software", "weft:seed", "weft:samplesPerPixel", "weft:stoppedBy",
                             "weft:complete", "weft:noise", "weft:meanSamplesPerPixel"})
         if (auto const at = header.texts.find(key); at != header.texts.end()) result.insert(*at);
     return result;
-}
-
-image::ExrHeader picture_header(session::RenderResult const& result, scene::RenderJob const& job,
-                                world::World const& world, uint32_t seed) {
-    return make_header(result, *job.scene, world.camera().size(), seed);
 }
 
 void write_film(std::string const& path, film::Film const& film, image::ExrHeader const& header,

@@ -10,31 +10,33 @@
 
 namespace weft::apps {
 
-/// What a picture's file says beside its channels: what made it, how far it got, its camera.
-image::ExrHeader picture_header(session::RenderResult const& result, scene::RenderJob const& job,
-                                world::World const& world, uint32_t seed);
+/// Returns what a picture's file says beside its channels: what made it, how far it got, its
+/// camera. `scene_hash` is that of the job's scene.
+image::ExrHeader picture_header(session::RenderResult const& result, session::Plan const& plan,
+                                uint64_t scene_hash, uint32_t seed);
 
-/// An EXR gets all channels of the film and the whole header; any other file the beauty, with alpha
-/// where that was asked for. Throws image::IoError.
+/// Writes a film. An EXR gets all channels of the film and the whole header; any other file the
+/// beauty, with alpha where that was asked for. Throws image::IoError.
 void write_film(std::string const& path, film::Film const& film, image::ExrHeader const& header,
                 post::DisplayChain const& chain);
 
-/// The same for several files, whose names it prints: all that can be written are; then it throws
-/// what the first of the others had to say.
+/// Writes a film to several files and prints their names. All files that can be written are; then
+/// it throws the error of the first that could not.
 void write_films(std::vector<std::string> const& paths, film::Film const& film,
                  image::ExrHeader const& header, post::DisplayChain const& chain);
 
-/// The part of a header's texts that belongs into any file.
+/// Returns the texts of a header that belong into files of any kind.
 image::Metadata plain_texts(image::ExrHeader const& header);
 
-/// A header as text, for parts of pictures that are joined later, and back; `name` is for messages.
+/// Returns the header as text, for parts of pictures that are joined later.
 std::string header_text(image::ExrHeader const& header);
+/// Reads such a text. Throws InputError that names `name` where it is none.
 image::ExrHeader parse_header(std::string const& text, std::string const& name);
 
-/// What --aov says: names, separated by commas or spaces. Throws InputError.
+/// Reads the texts of --aov: names, separated by commas or spaces. Throws InputError.
 std::vector<film::Aov> parse_aovs(std::vector<std::string> const& texts);
 
-/// A list of all AOVs with their channels, for a terminal.
+/// Returns a list of all AOVs with their channels, for a terminal.
 std::string aovs_text();
 
 } // namespace weft::apps

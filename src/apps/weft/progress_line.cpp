@@ -118,34 +118,38 @@ void report_bad_samples(uint64_t count, std::span<session::BadSample const> firs
                    b.sample, seed, b.value.r, b.value.g, b.value.b);
 }
 
-void print_summary(session::RenderResult const& r, session::RenderOptions const& o) {
-    double const pixels = double(r.region.pixels()), mean = r.pixel_samples / pixels;
+void print_summary(session::RenderResult const& r, session::Plan const& plan,
+                   session::RenderOptions const& o) {
+    double const pixels = double(plan.region.pixels()), mean = r.pixel_samples / pixels;
+    double const wanted_noise = o.limits.noise;
+    session::Part const& part = o.picture.part;
     bool const even = mean == r.least_samples;
     fmt::print(stderr, "{} x {} pixels, {}: {}, {} samples/s, {:.0f} MiB at most\n",
-               r.region.width(), r.region.height(),
-               !o.part.is_whole() ? to_string(o.part)
-               : even             ? fmt::format("{} samples each", r.least_samples)
-                                  : fmt::format("{} samples or more each, {:.1f} on the average",
-                                                r.least_samples, mean),
+               plan.region.width(), plan.region.height(),
+               !part.is_whole() ? to_string(part)
+               : even           ? fmt::format("{} samples each", r.least_samples)
+                                : fmt::format("{} samples or more each, {:.1f} on the average",
+                                              r.least_samples, mean),
                duration_text(r.seconds), count_text(r.samples_per_second),
                memory_peak() / (1 << 20));
     if (r.stopped_by == session::StoppedBy::time)
-        fmt::print(stderr, "the time was up{}\n",
-                   r.noise ? fmt::format(" at a noise of {:.3g}; wanted: {:.3g}", *r.noise, o.noise)
-                           : "");
+        fmt::print(
+            stderr, "the time was up{}\n",
+            r.noise ? fmt::format(" at a noise of {:.3g}; wanted: {:.3g}", *r.noise, wanted_noise)
+                    : "");
     else if (r.noise && r.stopped_by == session::StoppedBy::noise)
         fmt::print(stderr, "the noise is at most {:.3g}, by estimate\n", *r.noise);
-    else if (r.noise && o.noise > 0 && !r.cancelled)
+    else if (r.noise && wanted_noise > 0 && !r.cancelled)
         fmt::print(stderr,
                    "the noise is {:.3g} where it is worst, not {:.3g}: some pixels have all of the "
                    "{} samples that --spp allows\n",
-                   *r.noise, o.noise, r.samples);
+                   *r.noise, wanted_noise, plan.samples);
     if (r.cancelled)
         fmt::print(
             stderr,
             "stopped; what is done is written: {} of {} samples in each pixel, {:.1f} on the "
             "average\n",
-            r.least_samples, r.samples, mean);
+            r.least_samples, plan.samples, mean);
 }
 
 void ProgressLine::print(session::Progress const& p) {

@@ -52,7 +52,8 @@ void report_bad_samples(uint64_t count, std::span<session::BadSample const> firs
                         std::string const& seed);
 
 /// For people: size, samples, time, speed, memory, and what the render was after and reached.
-void print_summary(session::RenderResult const& result, session::RenderOptions const& options);
+void print_summary(session::RenderResult const& result, session::Plan const& plan,
+                   session::RenderOptions const& options);
 
 /// Bytes of memory that the process holds now, and at most so far; 0 where the system does not say.
 double memory_now();

@@ -89,7 +89,7 @@ Final final_picture(RenderArguments const& a, io::SceneFile const& file, bool wh
 int run_file(RenderArguments& a, io::SceneFile const& file, ProgressLine& progress) {
     bool const only_picture = file.jobs.size() + file.postprocesses.size() == 1;
     auto const chains = display_chains(a, file);
-    bool const whole = a.options.part.is_whole();
+    bool const whole = a.options.picture.part.is_whole();
     Final const final = final_picture(a, file, whole);
     auto const is_final = [&](int32_t image) { return final.known && final.image == image; };
     auto const paths_of = [&](scene::PostprocessJob const& job) {
@@ -104,13 +104,13 @@ int run_file(RenderArguments& a, io::SceneFile const& file, ProgressLine& progre
     post::Pictures pictures;
     auto next = file.postprocesses.begin();
     for (size_t i = 0; i < file.jobs.size(); ++i) {
-        post::Picture made;
         int32_t const image = file.jobs[i].target.image.index;
-        int const code = render_job(a, file.jobs[i], is_final(image), only_picture, *file.textures,
-                                    chains.at(image), progress, made);
-        if (code != kDone) return code;
+        JobResult made = render_job(
+            a, {file.jobs[i], *file.textures, chains.at(image), is_final(image), only_picture},
+            progress);
+        if (made.code != kDone) return made.code;
         if (!whole) continue;
-        pictures[image] = std::move(made);
+        pictures[image] = std::move(made.picture);
         for (; next != file.postprocesses.end() && next->jobs_before == i + 1; ++next) {
             post::Picture result = post::run(*next, pictures);
             int32_t const output = scene::pictures_of(next->postprocess).output.index;
@@ -125,22 +125,29 @@ int run_file(RenderArguments& a, io::SceneFile const& file, ProgressLine& progre
 /// Enough for light and materials to be told apart.
 constexpr int kPreviewSamples = 8;
 
+/// Turns texts into `a.options`. Throws InputError.
+void parse_options(RenderArguments& a) {
+    session::PictureOptions& picture = a.options.picture;
+    session::Limits& limits = a.options.limits;
+    picture.aovs = parse_aovs(a.aovs);
+    picture.part = parse_part(a.part);
+    picture.version = WEFT_VERSION;
+    picture.kernel = a.isa;
+    a.options.observers.profile = a.profile;
+    if (!a.time.empty()) limits.seconds = parse_duration(a.time, "--time");
+    if (a.preview) {
+        if (a.size.empty()) a.size = "50%";
+        if (limits.spp == 0) limits.spp = kPreviewSamples;
+    }
+}
+
 int run(RenderArguments& a) {
     if (std::find(a.aovs.begin(), a.aovs.end(), "list") != a.aovs.end()) {
         fmt::print("{}", aovs_text());
         return kDone;
     }
     if (a.scene.empty()) throw InputError("weft render expects a scene file, found none");
-    a.options.aovs = parse_aovs(a.aovs);
-    a.options.part = parse_part(a.shard, a.samples);
-    a.options.version = WEFT_VERSION;
-    a.options.kernel = a.isa;
-    a.options.profile = a.profile;
-    if (!a.time.empty()) a.options.seconds = parse_duration(a.time, "--time");
-    if (a.preview) {
-        if (a.size.empty()) a.size = "50%";
-        if (a.options.spp == 0) a.options.spp = kPreviewSamples;
-    }
+    parse_options(a);
     ProgressLine progress(progress_style(a.progress));
     progress.phase("read");
     a.textures.show_conversion = a.progress != "none" && a.progress != "json";
@@ -154,72 +161,96 @@ int run(RenderArguments& a) {
 
 } // namespace
 
+namespace {
+
+void add_picture_options(CLI::App& c, RenderArguments& a) {
+    c.add_option(
+         "-o,--output", a.outputs,
+         "Picture to write: .exr, .hdr, .png, .jpg, .tif, or a folder for all that the scene "
+         "makes; may be given several times")
+        ->type_name("OUT")
+        ->take_all();
+    c.add_option("--size", a.size, "Size of the picture: WxH in pixels, or P% of the scene's")
+        ->type_name("WxH|P%");
+    c.add_option("--crop", a.crop, "Render only this region of the picture, in pixels")
+        ->type_name("x0,y0,x1,y1");
+    c.add_option("--seed", a.options.picture.seed, "Another seed gives other noise");
+    c.add_option("--set", a.overrides,
+                 "Set a parameter of the scene, for example --set camera.fov=30")
+        ->type_name("PATH.PARAM=VALUE")
+        ->take_all();
+    c.add_option("--aov", a.aovs,
+                 "Further pictures of the same samples in the EXR file, for example "
+                 "albedo,normal,depth; may be given several times; `list` lists them")
+        ->type_name("NAMES")
+        ->take_all();
+    c.add_flag("--preview", a.preview,
+               "A quick look: half the size and 8 samples per pixel, unless --size and --spp say "
+               "otherwise; all materials and lights as they are");
+}
+
+void add_limit_options(CLI::App& c, RenderArguments& a) {
+    c.add_option("--spp", a.options.limits.spp, "Samples per pixel, instead of the scene's")
+        ->check(CLI::Range(1, 1 << 24));
+    c.add_option("--noise", a.options.limits.noise,
+                 "Render until the estimated relative error is below this everywhere, for example "
+                 "0.02; --spp is then the most that a pixel gets (65536 if not said)")
+        ->type_name("X")
+        ->check(number_within(1e-5, 10));
+    c.add_option("--time", a.time,
+                 "Render until this time is up, but at least one sample per pixel: 90s, 10m, 2h; "
+                 "with --noise and --spp, whichever comes first")
+        ->type_name("TIME");
+}
+
+void add_machine_options(CLI::App& c, RenderArguments& a) {
+    c.add_option("--threads", a.options.threads, "Number of threads; 0 is one per processor")
+        ->check(CLI::Range(0, 1024));
+    c.add_option("--tile", a.options.tile_size, "Size of a tile in pixels; changes no pixel")
+        ->check(CLI::Range(1, 4096));
+    c.add_option(
+         "--isa", a.isa,
+         "Pin the ray kernel's instruction set, so that different machines give the same bits")
+        ->check(CLI::IsMember({"sse2", "sse4.2", "avx", "avx2", "avx512"}));
+}
+
+void add_part_options(CLI::App& c, PartArguments& a) {
+    c.add_option("--shard", a.shard,
+                 "Render every N-th tile only, from the K-th; `weft merge` joins the parts")
+        ->type_name("K/N");
+    c.add_option("--samples", a.samples,
+                 "Render these of each pixel's samples only, from A to before B; `weft merge` "
+                 "joins the parts")
+        ->type_name("A:B");
+}
+
+void add_watching_options(CLI::App& c, RenderArguments& a) {
+    c.add_option("--progress", a.progress, "How to tell how far it is")
+        ->check(CLI::IsMember({"auto", "json", "none"}));
+    c.add_option("--watch", a.live.watch,
+                 "Write the picture so far to this file every two seconds, for a viewer that "
+                 "reloads it")
+        ->type_name("PNG");
+    c.add_option("--tev", a.live.tev, "Show the picture so far in the viewer tev, every second")
+        ->type_name("HOST:PORT");
+    c.add_flag("--profile", a.profile,
+               "Say at the end where the time went: by phase and, while rendering, by feature "
+               "(textures, shadow rays, ...)");
+}
+
+} // namespace
+
 void add_render_command(CLI::App& app, Command& chosen) {
     auto a = std::make_shared<RenderArguments>();
     CLI::App* c = app.add_subcommand("render", "Render a scene file");
     c->add_option("scene", a->scene, "The scene file, or a glTF file (.gltf, .glb)")
         ->type_name("SCENE");
-    c->add_option(
-         "-o,--output", a->outputs,
-         "Picture to write: .exr, .hdr, .png, .jpg, .tif, or a folder for all that the scene "
-         "makes; may be given several times")
-        ->type_name("OUT")
-        ->take_all();
-    c->add_option("--spp", a->options.spp, "Samples per pixel, instead of the scene's")
-        ->check(CLI::Range(1, 1 << 24));
-    c->add_option("--size", a->size, "Size of the picture: WxH in pixels, or P% of the scene's")
-        ->type_name("WxH|P%");
-    c->add_option("--crop", a->crop, "Render only this region of the picture, in pixels")
-        ->type_name("x0,y0,x1,y1");
-    c->add_option("--threads", a->options.threads, "Number of threads; 0 is one per processor")
-        ->check(CLI::Range(0, 1024));
-    c->add_option("--seed", a->options.seed, "Another seed gives other noise");
-    c->add_option("--tile", a->options.tile_size, "Size of a tile in pixels; changes no pixel")
-        ->check(CLI::Range(1, 4096));
-    c->add_option("--progress", a->progress, "How to tell how far it is")
-        ->check(CLI::IsMember({"auto", "json", "none"}));
-    c->add_option("--set", a->overrides,
-                  "Set a parameter of the scene, for example --set camera.fov=30")
-        ->type_name("PATH.PARAM=VALUE")
-        ->take_all();
-    c->add_option("--aov", a->aovs,
-                  "Further pictures of the same samples in the EXR file, for example "
-                  "albedo,normal,depth; may be given several times; `list` lists them")
-        ->type_name("NAMES")
-        ->take_all();
-    c->add_option(
-         "--isa", a->isa,
-         "Pin the ray kernel's instruction set, so that different machines give the same bits")
-        ->check(CLI::IsMember({"sse2", "sse4.2", "avx", "avx2", "avx512"}));
-    c->add_option("--noise", a->options.noise,
-                  "Render until the estimated relative error is below this everywhere, for example "
-                  "0.02; --spp is then the most that a pixel gets (65536 if not said)")
-        ->type_name("X")
-        ->check(number_within(1e-5, 10));
-    c->add_option("--time", a->time,
-                  "Render until this time is up, in whole passes: 90s, 10m, 2h; with --noise and "
-                  "--spp, whichever comes first")
-        ->type_name("TIME");
+    add_picture_options(*c, *a);
+    add_limit_options(*c, *a);
+    add_machine_options(*c, *a);
     add_checkpoint_options(*c, a->checkpoint);
-    c->add_option("--shard", a->shard,
-                  "Render every N-th tile only, from the K-th; `weft merge` joins the parts")
-        ->type_name("K/N");
-    c->add_option("--samples", a->samples,
-                  "Render these of each pixel's samples only, from A to before B; `weft merge` "
-                  "joins the parts")
-        ->type_name("A:B");
-    c->add_flag("--preview", a->preview,
-                "A quick look: half the size and 8 samples per pixel, unless --size and --spp say "
-                "otherwise; all materials and lights as they are");
-    c->add_option("--watch", a->watch,
-                  "Write the picture so far to this file every two seconds, for a viewer that "
-                  "reloads it")
-        ->type_name("PNG");
-    c->add_option("--tev", a->tev, "Show the picture so far in the viewer tev, every second")
-        ->type_name("HOST:PORT");
-    c->add_flag("--profile", a->profile,
-                "Say at the end where the time went: by phase and, while rendering, by feature "
-                "(textures, shadow rays, ...)");
+    add_part_options(*c, a->part);
+    add_watching_options(*c, *a);
     add_texture_options(*c, a->textures);
     add_display_options(*c, a->display);
     c->callback([a, &chosen] { chosen = [a] { return run(*a); }; });

@@ -6,6 +6,7 @@
 
 #include "apps/weft/checkpoint.h"
 #include "apps/weft/display_options.h"
+#include "apps/weft/live_view.h"
 #include "apps/weft/progress_line.h"
 #include "apps/weft/texture_options.h"
 #include "post/run.h"
@@ -13,33 +14,48 @@
 
 namespace weft::apps {
 
-struct RenderArguments {
-    std::string scene;
-    std::vector<std::string> outputs;
-    std::string size, crop;
-    std::string progress = "auto";
-    std::vector<std::string> overrides, aovs;
-    std::string isa;
-    TextureArguments textures;
-    CheckpointArguments checkpoint;
-    std::string shard, samples, time, watch, tev;
-    bool preview = false, profile = false;
-    OptionTexts display;
-    session::RenderOptions options;
+/// A part of a picture, as the user names it: "K/N" and "A:B".
+struct PartArguments {
+    std::string shard, samples;
 };
 
-/// Where a picture goes: NAME.exr beside the scene or in the folders that the user asked for; files
-/// that the user asked for get the `final` picture alone, so that others may go nowhere.
+struct RenderArguments {
+    std::string scene;
+    std::vector<std::string> outputs, overrides, aovs;
+    std::string size, crop, isa, time;
+    std::string progress = "auto";
+    bool preview = false, profile = false;
+    PartArguments part;
+    CheckpointArguments checkpoint;
+    LiveArguments live;
+    TextureArguments textures;
+    OptionTexts display;
+    session::RenderOptions options; ///< all of the above that needs no scene, once it is parsed
+};
+
+/// Returns where a picture goes: to NAME.exr beside the scene or in the folders that the user asked
+/// for. Files that the user asked for get the `final` picture alone, so that others may go nowhere.
 std::vector<std::string> output_paths(RenderArguments const& a, scene::PictureName const& picture,
                                       bool final);
 
-/// "K/N" of --shard and "A:B" of --samples, either of which may be empty. Throws InputError.
-session::Part parse_part(std::string const& shard, std::string const& samples);
+/// Reads the part that the texts name, either of which may be empty. Throws InputError.
+session::Part parse_part(PartArguments const& texts);
 
-/// Renders and writes `job`; `made` becomes the picture. `final`: files of -o are for this picture;
-/// `only_picture`: the scene makes no other. Returns the program's exit code.
-int render_job(RenderArguments const& a, scene::RenderJob const& job, bool final, bool only_picture,
-               image::TextureCache const& textures, post::DisplayChain const& chain,
-               ProgressLine& progress, post::Picture& made);
+/// One job of a scene file, and what of the file it needs.
+struct JobTask {
+    scene::RenderJob const& job;
+    image::TextureCache const& textures;
+    post::DisplayChain const& chain; ///< how its picture is shown
+    bool is_final;                   ///< files of -o are for this picture
+    bool is_only;                    ///< the scene makes no other picture
+};
+
+struct JobResult {
+    int code; ///< the program's exit code
+    post::Picture picture;
+};
+
+/// Renders a job and writes its picture.
+JobResult render_job(RenderArguments const& a, JobTask const& task, ProgressLine& progress);
 
 } // namespace weft::apps

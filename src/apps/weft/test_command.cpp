@@ -140,7 +140,7 @@ void add_test_command(CLI::App& app, Command& chosen) {
     c->add_option("files", a->files, "Scene files")->required()->type_name("FILE...");
     c->add_option("--threads", a->options.threads, "Number of threads; 0 is one per processor")
         ->check(CLI::Range(0, 1024));
-    c->add_option("--seed", a->options.seed, "Another seed gives other noise");
+    c->add_option("--seed", a->options.picture.seed, "Another seed gives other noise");
     add_texture_options(*c, a->textures);
     c->callback([a, &chosen] { chosen = [a] { return run(a->files, a->options, a->textures); }; });
 }
