@@ -23,4 +23,31 @@ fail() {
     if [ -f err ]; then tail -n 20 err; fi
     failures=$((failures + 1))
 }
+# wait_for COMMAND...: until it succeeds. Tests wait for what has to happen, however busy the machine
+# is; ten minutes are no measure of speed, but say that something hangs.
+wait_for() {
+    local start=$SECONDS
+    until "$@" 2>/dev/null; do
+        if [ $((SECONDS - start)) -gt 600 ]; then
+            fail "still waiting after ten minutes: $*"
+            return 1
+        fi
+        sleep 0.05
+    done
+}
+# start_render ARGUMENTS...: a render without end in the background, $pid, whose progress goes to
+# `err` as JSON.
+start_render() {
+    : >err # what an earlier one wrote is not to be waited for
+    "$weft" render "$@" --spp 10000000 --progress json >out 2>err &
+    pid=$!
+}
+# Waits until every pixel has a sample.
+wait_for_samples() { wait_for grep -q '"phase":"render".*"samples":[1-9]' err; }
+# stop_render: as Ctrl-C does; leaves the exit code in `code`.
+stop_render() {
+    kill -INT $pid
+    wait $pid
+    code=$?
+}
 has() { grep -qF -- "$1" "$2" || fail "expected '$1' in $2"; }

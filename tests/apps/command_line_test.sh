@@ -158,43 +158,71 @@ rm t_ref.exr
 expect 2 "$weft" test t.xml
 
 # Ctrl-C: a clean stop that keeps what is done.
-sed -e 's/count="4"/count="1000000"/' s.xml >long.xml
-"$weft" render long.xml -o long.exr >out 2>err &
-pid=$!
-sleep 3.5
-kill -INT $pid
-wait $pid
-code=$?
+start_render s.xml -o long.exr
+wait_for_samples
+stop_render
 [ $code = 130 ] || fail "expected exit code 130 after an interrupt, found $code"
 has "what is done is written" err
-grep -qE '[1-9][0-9]* of 1000000 samples in each pixel' err || fail "not how many samples it has"
-has '% after' err # a plain line of progress, since stderr is no terminal
+grep -qE '[1-9][0-9]* of 10000000 samples in each pixel' err || fail "not how many samples it has"
 [ -s long.exr ] || fail "an interrupted render wrote nothing"
 
+# Progress in plain lines, where stderr is no terminal.
+"$weft" render s.xml --spp 10000000 -o lines.exr >out 2>err &
+pid=$!
+wait_for grep -q '% after' err
+stop_render
+
 # Ctrl-C before every pixel has a sample leaves an older picture as it is, whenever it comes; and
-# the second one kills at once.
-sed -e 's/count="4"/count="64"/' -e 's/width="40" height="30"/width="8000" height="8000"/' s.xml >big.xml
+# the second one kills at once. Many lights make the first sample of all pixels take minutes.
+{
+    sed -e '/<light type="point"/,$d' -e 's/<integrator /&lightSamples="1024" /' \
+        -e 's/width="40" height="30"/width="2000" height="2000"/' s.xml
+    for i in $(seq 300); do
+        echo "<light type=\"point\" position=\"$((i % 17 - 8)),-9,$((i / 17 - 9))\" power=\"9\"/>"
+    done
+    sed -n '/<instance>/,$p' s.xml
+} >big.xml
 cp a.exr old.exr
 python3 - "$weft" <<'P' || fail "an interrupt was not answered"
-import signal, subprocess, sys, time
+import os, signal, subprocess, sys, time
 
-def interrupted(delays, *arguments):
-    p = subprocess.Popen([sys.argv[1], "render", *arguments, "--threads", "1"],
-                         stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-    for delay in delays:
-        time.sleep(delay)
+def start():
+    return subprocess.Popen([sys.argv[1], "render", "big.xml", "-o", "old.exr", "--threads", "1",
+                             "--progress", "json"],
+                            stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+
+def processor_seconds(pid): # user and system, behind the program's name in parentheses
+    fields = open(f"/proc/{pid}/stat").read().rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+def interrupt(p, heard="", times=1):
+    before = processor_seconds(p.pid)
+    for _ in range(times):
         p.send_signal(signal.SIGINT)
-    start = time.time()
-    message = p.communicate(timeout=20)[1]
-    return p.returncode, message, time.time() - start
+    message = heard + p.stderr.read()
+    _, status, usage = os.wait4(p.pid, 0)
+    p.returncode = os.waitstatus_to_exitcode(status)
+    return p.returncode, message, usage.ru_utime + usage.ru_stime - before
 
-for delay in (0, 0.01, 0.02, 0.05, 0.1, 0.2, 0.4, 1, 2):
-    code, message, seconds = interrupted([delay], "big.xml", "-o", "old.exr")
+# At whatever moment, and at the beginning of each phase.
+for delay in (0, 0.01, 0.02, 0.05, 0.1, 0.2):
+    p = start()
+    time.sleep(delay)
+    code, message, seconds = interrupt(p)
     # Before main begins the system answers, without a word.
     assert code == 130 and "no file is overwritten" in message or code == -signal.SIGINT, \
         (delay, code, message)
-    assert seconds < 5, (delay, seconds)
-code, message, seconds = interrupted([0.5, 0.0005], "big.xml", "-o", "old.exr")
+for phase in '"phase":"read"', '"phase":"commit"', '"phase":"render"', '"samples":0':
+    p, heard = start(), ""
+    while phase not in heard:
+        line = p.stderr.readline()
+        assert line, (phase, heard)
+        heard += line
+    code, message, seconds = interrupt(p, heard)
+    assert code == 130 and "no file is overwritten" in message, (phase, code, message)
+    # Sampling ends at once; the film of so many pixels is looked through and freed.
+    assert seconds < 3, (phase, seconds)
+code, message, seconds = interrupt(start(), times=2)
 assert code in (130, -signal.SIGINT), (code, message)
 P
 cmp -s a.exr old.exr || fail "an interrupted render overwrote the old picture"

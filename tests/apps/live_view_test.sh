@@ -52,7 +52,7 @@ print(len(updates) // 3, "pictures")
 P
 python3 server.py >server.out 2>&1 &
 server=$!
-while [ ! -s port ]; do sleep 0.05; done
+wait_for [ -s port ]
 expect 0 "$weft" render s.xml -o live.exr --tev "127.0.0.1:$(cat port)" --time 3s
 wait $server || { cat server.out; fail "not what tev expects"; }
 expect 2 "$weft" render s.xml -o live.exr --tev "127.0.0.1:$(cat port)" # nobody is there any more
@@ -60,21 +60,25 @@ has "nobody listens at" err
 expect 2 "$weft" render s.xml -o live.exr --tev "no such host:1"
 
 # A PNG that is there, and whole, before the render is done, and its last state after it.
-"$weft" render s.xml -o w.exr --time 6s --watch w.png >out 2>err &
-pid=$!
-for _ in $(seq 300); do [ -s w.png ] && break; sleep 0.1; done
-kill -0 $pid 2>/dev/null || fail "no picture before the render was done"
-expect 0 "$weft" compare w.png w.png
-wait $pid || fail "watching ended the render"
+start_render s.xml -o w.exr --watch w.png
+wait_for [ -s w.png ]
+"$weft" compare w.png w.png >/dev/null || fail "the picture to watch is not whole"
+wait_for_samples
+stop_render
+[ $code = 130 ] || fail "watching ended the render"
+expect 0 "$weft" render s.xml -o last.exr -o last.png --watch w.png
+expect 0 "$weft" compare last.png w.png --mae 0
 expect 2 "$weft" render s.xml -o w.exr --watch nowhere/w.png
 
 # A picture to watch that can no longer be written takes nothing from the render.
 mkdir gone
-"$weft" render s.xml -o kept.exr --time 8s --watch gone/w.png >out 2>err &
-pid=$!
-for _ in $(seq 300); do [ -s gone/w.png ] && break; sleep 0.1; done
+start_render s.xml -o kept.exr --watch gone/w.png
+wait_for [ -s gone/w.png ]
+wait_for_samples
 rm -r gone
-wait $pid || fail "a lost picture to watch ended the render"
+wait_for grep -q 'the picture to watch was not written' err
+stop_render # and fails to write it once more
+[ $code = 130 ] || fail "a lost picture to watch ended the render"
 [ -s kept.exr ] || fail "a lost picture to watch took the picture with it"
 [ "$(grep -c 'the picture to watch was not written' err)" = 1 ] || fail "it is not told once"
 

@@ -51,57 +51,61 @@ for bad in "--shard 4/3" "--shard 2" "--samples 3:3" "--samples 0:25" "--shard 1
 done
 
 # Killed at several moments, by a signal that nobody can catch.
-common=(s.xml --spp 300 --threads 2 --progress none)
+common=(s.xml --spp 600 --threads 2 --progress none)
 expect 0 "$weft" render "${common[@]}" -o long.exr
 python3 - "$weft" "${common[@]}" <<'P' || fail "a killed render did not go on as it should"
-import os, random, subprocess, sys, time
+import os, random, resource, signal, subprocess, sys, time
 weft, common = sys.argv[1], sys.argv[2:]
 random.seed(1)
 command = [weft, "render", *common, "-o", "killed.exr", "--checkpoint", "0.05s"]
 file = "killed.exr.checkpoint"
 def written():
     return os.path.exists(file) and os.stat(file).st_mtime_ns
-kills, resumed = 0, 0
+# The system kills the first ones after some processor time, if nobody else does before: so some are
+# killed, however late this program gets its turn.
+def limit():
+    resource.setrlimit(resource.RLIMIT_CPU, (3, 3))
+kills, resumed, found = 0, 0, 0
 while True:
-    before = written()
-    p = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-    if kills < 8: # after a checkpoint, at whatever moment
+    before, to_kill = written(), kills < 8
+    found += before is not False
+    p = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                         preexec_fn=limit if kills < 2 else None)
+    if to_kill: # after a checkpoint, at whatever moment
         while p.poll() is None and written() == before:
             time.sleep(0.001)
         time.sleep(random.choice([0, 0.01, 0.05, 0.1, 0.2]))
         p.kill()
-        kills += 1
-    error = p.communicate(timeout=500)[1]
+    error = p.communicate()[1]
     resumed += "going on from " + file in error
     if p.returncode == 0:
         break
-    assert p.returncode < 0, error
+    assert p.returncode == -signal.SIGKILL and to_kill, error
+    kills += 1
 print(kills, "kills,", resumed, "times gone on")
-assert resumed >= 5
+assert resumed == found >= 1, (resumed, found)
 assert not os.path.exists(file), "the checkpoint outlived the render"
 P
 cmp -s long.exr killed.exr || fail "a killed render has other bits"
 
 # Ctrl-C keeps a checkpoint; another render does not take it, nor write over it.
-"$weft" render s.xml --spp 1000000 -o c.exr --checkpoint 60s >out 2>err &
-pid=$!
-sleep 3
-kill -INT $pid
-wait $pid
-[ $? = 130 ] || fail "no clean stop"
+start_render s.xml -o c.exr --checkpoint 60s
+wait_for_samples
+stop_render
+[ $code = 130 ] || fail "no clean stop"
 [ -s c.exr.checkpoint ] || fail "no checkpoint of a render that was stopped"
 cp c.exr.checkpoint copy
-expect 2 "$weft" render s.xml --spp 1000000 -o c.exr --checkpoint 60s --seed 7
+expect 2 "$weft" render s.xml --spp 10000000 -o c.exr --checkpoint 60s --seed 7
 has "seed is '7' here and '0' there" err
-expect 2 "$weft" render s.xml --spp 1000000 -o c.exr --resume --set cam.fov=41
+expect 2 "$weft" render s.xml --spp 10000000 -o c.exr --resume --set cam.fov=41
 has "scene is" err
 expect 2 "$weft" render s.xml --spp 20 -o c.exr --resume --aov uv
-has "samples per pixel is '20' here and '1000000' there; channels is" err
-expect 2 "$weft" render s.xml --spp 1000000 --shard 1/2 --checkpoint-file c.exr.checkpoint -o a.weft
+has "samples per pixel is '20' here and '10000000' there; channels is" err
+expect 2 "$weft" render s.xml --spp 10000000 --shard 1/2 --checkpoint-file c.exr.checkpoint -o a.weft
 has "it is shard 1/2 here and the whole picture there" err
 cmp -s copy c.exr.checkpoint || fail "a refused checkpoint was changed"
 printf x | dd of=c.exr.checkpoint bs=1 seek=900 conv=notrunc 2>/dev/null
-expect 2 "$weft" render s.xml --spp 1000000 -o c.exr --resume
+expect 2 "$weft" render s.xml --spp 10000000 -o c.exr --resume
 has "damaged" err
 expect 0 "$weft" render s.xml --spp 2 -o c.exr --checkpoint 60s --restart
 [ ! -e c.exr.checkpoint ] || fail "a finished render kept its checkpoint"
@@ -115,7 +119,7 @@ for other in f.exr ./s.xml watched.png; do
     has "--checkpoint-file expects a file of its own" err
 done
 cp copy f.exr.checkpoint
-expect 2 bash -c "trap '' XFSZ; ulimit -f 100; $weft render s.xml --spp 1000000 -o f.exr --resume"
+expect 2 bash -c "trap '' XFSZ; ulimit -f 100; $weft render s.xml --spp 10000000 -o f.exr --resume"
 has "no room for a second file" err
 cmp -s copy f.exr.checkpoint || fail "a full disk took the old checkpoint"
 expect 2 bash -c "trap '' XFSZ; ulimit -f 100; $weft render s.xml -o g.exr --checkpoint 60s"

@@ -81,7 +81,7 @@ def render(scene, spp, *options):
     return lines[-1], usage.ru_utime + usage.ru_stime
 def parts(profile):
     return {f["name"]: f["percent"] for f in profile["features"]}
-short, short_usage = render("plain.xml", 1)
+_, short_usage = render("plain.xml", 1)
 found = {}
 for name in "plain", "textured", "lit":
     profile, usage = render(name + ".xml", 128)
@@ -93,8 +93,9 @@ for name in "plain", "textured", "lit":
     assert whole <= profile["threadSeconds"] * 1.01, profile
     assert profile["profileSamples"] > 50, profile
     if name == "plain":
-        more = whole - short["processorSeconds"]
-        assert abs(more / (usage - short_usage) - 1) < 0.05, (more, usage, short_usage)
+        # What is not rendering takes as long as all of a render of one sample; where other programs
+        # take turns on the processors' caches, twice as long at most.
+        assert usage - 2 * short_usage <= whole <= usage, (whole, usage, short_usage)
     found[name] = parts(profile)
     print(name, found[name])
 assert found["plain"]["textures"] == 0
@@ -104,13 +105,11 @@ assert found["lit"]["light choice"] > 2 * found["plain"]["light choice"]
 P
 
 # Of a render that is stopped, too.
-"$weft" render plain.xml --spp 1000000 -o c.exr --profile >out 2>err &
-pid=$!
-sleep 3
-kill -INT $pid
-wait $pid
-[ $? = 130 ] || fail "no clean stop"
-has "all features" err
+start_render plain.xml -o c.exr --profile
+wait_for_samples
+stop_render
+[ $code = 130 ] || fail "no clean stop"
+has '"features":[' err
 [ -s c.exr ] || fail "no picture of what was done"
 expect 0 "$weft" render plain.xml -o p.exr --spp 1
 if grep -q "all features" err; then fail "a profile that nobody asked for"; fi

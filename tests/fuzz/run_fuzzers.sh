@@ -25,7 +25,7 @@ cmake --build "$build" --target fuzzers >"$scratch/log" 2>&1 || { cat "$scratch/
 for kind in scene ply gltf ies; do
     # New inputs go to the scratch folder; a crashing one is kept in the build folder.
     mkdir "$scratch/$kind"
-    "$build/fuzz_$kind" -max_total_time="${FUZZ_SECONDS:-10}" -max_len=4096 -timeout=10 \
+    "$build/fuzz_$kind" -max_total_time="${FUZZ_SECONDS:-10}" -max_len=4096 -timeout=300 \
         -rss_limit_mb=1024 -malloc_limit_mb=256 -print_final_stats=1 \
         -artifact_prefix="$build/fuzz_$kind-" \
         "$scratch/$kind" tests/fuzz/corpus/"$kind" tests/io/bad tests/io/bad_gltf 2>"$scratch/log" ||
