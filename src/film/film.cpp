@@ -16,8 +16,6 @@ Color mean_of(double const* sums, double samples) {
     return {float(sums[0] * scale), float(sums[1] * scale), float(sums[2] * scale)};
 }
 
-Aov cryptomatte(size_t which) { return Aov(size_t(Aov::crypto_object) + which); }
-
 } // namespace
 
 Film::Film(Region const& region, Layout const& layout) : region_(region), layout_(layout) {
@@ -27,14 +25,14 @@ Film::Film(Region const& region, Layout const& layout) : region_(region), layout
     counts_.resize(pixels);
     if (layout.has_nearest()) nearest_.resize(pixels);
     for (size_t i = 0; i < kCryptomattes; ++i)
-        if (layout.has(cryptomatte(i))) ids_[i].resize(pixels);
+        if (layout.has(kCryptomatteAovs[i])) ids_[i].resize(pixels);
 }
 
 size_t Film::bytes_per_pixel(Layout const& layout) {
     size_t bytes = size_t(layout.sums()) * sizeof(double) + sizeof(Counts);
     if (layout.has_nearest()) bytes += sizeof(Nearest);
     for (size_t i = 0; i < kCryptomattes; ++i)
-        if (layout.has(cryptomatte(i))) bytes += sizeof(IdCounts);
+        if (layout.has(kCryptomatteAovs[i])) bytes += sizeof(IdCounts);
     return bytes;
 }
 
@@ -54,9 +52,9 @@ void Film::add_more(size_t pixel, uint32_t index, Color const& beauty, SampleRec
     if (!record) return;
     double* to = sums + layout_.first_recorded();
     for (float const v : record->values()) *to++ += double(v);
-    if (FirstSurface const* s = record->surface();
-        s && !nearest_.empty() && s->depth < nearest_[pixel].depth)
-        nearest_[pixel] = {s->depth, {s->p.x, s->p.y, s->p.z, s->uv.x, s->uv.y}};
+    if (auto const* nearest = record->nearest();
+        nearest && !nearest_.empty() && nearest->front() < nearest_[pixel].depth())
+        nearest_[pixel].numbers = *nearest;
     for (size_t i = 0; i < kCryptomattes; ++i)
         if (!ids_[i].empty())
             if (uint32_t const id = record->cryptomatte_id(i); id != 0)
@@ -136,40 +134,48 @@ image::Image Film::image() const {
     return image;
 }
 
-/// In the order of Layout::channel_names.
+/// Writes all channels, in the order of Layout::channel_names.
 void Film::write_pixel(size_t pixel, float* to) const {
-    double const n = counts_[pixel].all, scale = n > 0 ? 1 / n : 0;
-    auto const put = [&](float v) { *to++ = v; };
-    for (Aov aov : layout_.aovs()) {
-        if (int const offset = layout_.offset(aov); aov == Aov::shadow_catcher) {
-            double const* const lit = sums(pixel) + offset;
-            for (int c = 0; c < 3; ++c) put(lit[c] > 0 ? float(lit[3 + c] / lit[c]) : 1.f);
-            continue;
-        } else if (offset >= 0) {
-            for (int c = 0; c < layout_.summed(aov); ++c)
-                put(float(sums(pixel)[offset + c] * scale));
-            continue;
-        }
-        if (aov == Aov::sample_count) {
-            put(float(n));
-        } else if (aov == Aov::variance) {
-            Color const v = variance(pixel);
-            for (int c = 0; c < 3; ++c) put(v[c]);
-        } else if (aov == Aov::depth) {
-            put(std::min(nearest_[pixel].depth, kNoDepth));
-        } else if (aov == Aov::position) {
-            for (size_t c = 0; c < 3; ++c) put(nearest_[pixel].p_uv[c]);
-        } else if (aov == Aov::uv) {
-            for (size_t c = 3; c < 5; ++c) put(nearest_[pixel].p_uv[c]);
-        } else {
-            write_cryptomatte(ids_[size_t(aov) - size_t(Aov::crypto_object)][pixel], n, to);
-            to += 2 * ((layout_.options().cryptomatte_levels + 1) / 2 * 2);
-        }
-    }
+    for (Aov aov : layout_.aovs()) to = write_aov(pixel, aov, to);
 }
 
-/// Pairs of id and coverage, by falling coverage; ids decide between equal ones.
-void Film::write_cryptomatte(IdCounts const& counts, double samples, float* to) const {
+/// Writes the channels of one AOV and returns where the next one's begin.
+float* Film::write_aov(size_t pixel, Aov aov, float* to) const {
+    scene::AovInfo const& info = info_of(aov);
+    double const n = counts_[pixel].all, scale = n > 0 ? 1 / n : 0;
+    double const* const sum = sums(pixel) + std::max(0, layout_.offset(aov));
+    switch (info.how) {
+    case Accumulation::Beauty:
+    case Accumulation::Mean:
+    case Accumulation::MeanPerLightGroup:
+    case Accumulation::MeanPerLayer:
+        return std::transform(sum, sum + layout_.summed(aov), to,
+                              [&](double s) { return float(s * scale); });
+    case Accumulation::Ratio:
+        return std::transform(
+            sum, sum + info.channels(), sum + info.channels(), to,
+            [](double all, double part) { return all > 0 ? float(part / all) : 1.f; });
+    case Accumulation::Nearest: {
+        auto const* const from = &nearest_[pixel].numbers[size_t(kNearestOffsets[size_t(aov)])];
+        if (aov == Aov::depth)
+            return std::copy_n(std::array{std::min(*from, kNoDepth)}.data(), 1, to);
+        return std::copy_n(from, info.channels(), to);
+    }
+    case Accumulation::Ids:
+        return write_cryptomatte(ids_[cryptomatte_index(aov)][pixel], n, to);
+    case Accumulation::SampleCount:
+        *to = float(n);
+        return to + 1;
+    case Accumulation::Variance:
+        break;
+    }
+    Color const v = variance(pixel);
+    return std::copy_n(std::array{v.r, v.g, v.b}.data(), 3, to);
+}
+
+/// Writes pairs of id and coverage, by falling coverage; ids decide between equal ones. Returns
+/// where they end: layers hold two pairs each.
+float* Film::write_cryptomatte(IdCounts const& counts, double samples, float* to) const {
     IdCounts ranked = counts;
     std::stable_sort(ranked.begin(), ranked.end(),
                      [](IdCount const& a, IdCount const& b) { return a.samples > b.samples; });
@@ -178,6 +184,7 @@ void Film::write_cryptomatte(IdCounts const& counts, double samples, float* to) 
         to[2 * i] = std::bit_cast<float>(ranked[i].id);
         to[2 * i + 1] = float(ranked[i].samples / samples);
     }
+    return to + 2 * ((layout_.options().cryptomatte_levels + 1) / 2 * 2);
 }
 
 void Film::merge(Film const& part) {
@@ -193,7 +200,7 @@ void Film::merge(Film const& part) {
         counts_[to].all += part.counts_[i].all;
         counts_[to].even += part.counts_[i].even;
         for (size_t c = 0; c < width; ++c) sums_[to * width + c] += part.sums_[i * width + c];
-        if (!nearest_.empty() && part.nearest_[i].depth < nearest_[to].depth)
+        if (!nearest_.empty() && part.nearest_[i].depth() < nearest_[to].depth())
             nearest_[to] = part.nearest_[i];
         for (size_t k = 0; k < kCryptomattes; ++k)
             if (!ids_[k].empty())

@@ -95,10 +95,11 @@ class Film {
     friend bool operator==(Film const& a, Film const& b);
 
   private:
-    /// What is nearest to the camera; `depth` is infinite where there is nothing.
+    /// The numbers of the sample whose surface is nearest to the camera (kNearestOffsets); the
+    /// first, its depth, is infinite where there is none.
     struct Nearest {
-        float depth = std::numeric_limits<float>::infinity();
-        std::array<float, 5> p_uv{}; ///< position, texture coordinates
+        std::array<float, kNearestNumbers> numbers{std::numeric_limits<float>::infinity()};
+        float depth() const { return numbers[0]; }
         friend bool operator==(Nearest const&, Nearest const&) = default;
     };
     struct IdCount {
@@ -115,7 +116,8 @@ class Film {
     double const* sums(size_t pixel) const { return &sums_[pixel * size_t(layout_.sums())]; }
     Color variance(size_t pixel) const;
     void write_pixel(size_t pixel, float* to) const;
-    void write_cryptomatte(IdCounts const& counts, double samples, float* to) const;
+    float* write_aov(size_t pixel, Aov aov, float* to) const;
+    float* write_cryptomatte(IdCounts const& counts, double samples, float* to) const;
 
     Region region_;
     Layout layout_;

@@ -86,7 +86,7 @@ class Reader {
 void write_layout(Writer& w, Layout const& layout) {
     std::vector<Aov> const aovs = layout.aovs();
     w.value(uint32_t(aovs.size()));
-    for (Aov aov : aovs) w.text(scene::kAovs[size_t(aov)].name);
+    for (Aov aov : aovs) w.text(info_of(aov).name);
     LayoutOptions const& o = layout.options();
     w.value(uint8_t(o.half_sums));
     w.value(uint8_t(o.squares));

@@ -6,101 +6,56 @@ namespace weft::film {
 
 namespace {
 
-bool is_of_light(Aov aov) { return (aov >= Aov::emission && aov <= Aov::layers); }
-
-bool is_nearest(Aov aov) { return aov == Aov::depth || aov == Aov::position || aov == Aov::uv; }
-
-bool is_cryptomatte(Aov aov) {
-    return aov == Aov::crypto_object || aov == Aov::crypto_material || aov == Aov::crypto_asset;
-}
-
-bool is_of_surface(Aov aov) {
-    return is_nearest(aov) || is_cryptomatte(aov) || aov == Aov::alpha || aov == Aov::normal ||
-           aov == Aov::normal_geometric || aov == Aov::albedo || aov == Aov::denoise_albedo ||
-           aov == Aov::denoise_normal;
-}
-
-/// The names of an AOV's channels behind its layer's.
-std::vector<std::string> names_of(std::string const& layer, std::string_view letters) {
+/// Returns the names of an AOV's channels, or of one of its pictures, in that layer of the file.
+std::vector<std::string> names_in(std::string const& layer, std::string_view letters) {
+    if (letters.empty()) return {layer};
     std::vector<std::string> names;
-    for (char c : letters) names.push_back(layer + "." + c);
+    for (char c : letters) names.push_back(layer.empty() ? std::string(1, c) : layer + "." + c);
     return names;
 }
 
-/// One picture by each name.
-std::vector<std::string> colors_of(std::string const& prefix,
-                                   std::vector<std::string> const& layers) {
+/// Returns the names of the channels of one picture per name.
+std::vector<std::string> names_per(std::vector<std::string> const& all,
+                                   scene::AovInfo const& info) {
     std::vector<std::string> names;
-    for (std::string const& layer : layers)
-        for (std::string& n : names_of(prefix + layer, "RGB")) names.push_back(std::move(n));
+    for (std::string const& one : all)
+        for (std::string& n : names_in(std::string(info.layer) + one, info.letters))
+            names.push_back(std::move(n));
     return names;
 }
 
 /// Two ranks of a Cryptomatte share a layer of four channels.
-std::vector<std::string> cryptomatte_channels(std::string const& name, int levels) {
+std::vector<std::string> cryptomatte_names(scene::AovInfo const& info, int levels) {
     std::vector<std::string> names;
     for (int layer = 0; 2 * layer < levels; ++layer) {
         std::string const number = (layer < 10 ? "0" : "") + std::to_string(layer);
-        for (std::string& n : names_of(name + number, "RGBA")) names.push_back(std::move(n));
+        for (std::string& n : names_in(std::string(info.layer) + number, "RGBA"))
+            names.push_back(std::move(n));
     }
     return names;
 }
 
-std::vector<std::string> channels_of(Aov aov, LayoutOptions const& options) {
-    std::string const layer(scene::kAovs[size_t(aov)].name);
-    switch (aov) {
-    case Aov::beauty:
-        return {"R", "G", "B"};
-    case Aov::alpha:
-        return {"A"};
-    case Aov::depth:
-        return {"Z"};
-    case Aov::position:
-        return names_of("P", "XYZ");
-    case Aov::normal:
-        return names_of("N", "XYZ");
-    case Aov::normal_geometric:
-        return names_of("Ng", "XYZ");
-    case Aov::uv:
-        return names_of("UV", "UV");
-    case Aov::denoise_normal:
-        return names_of(layer, "XYZ");
-    case Aov::sample_count:
-        return {layer};
-    case Aov::crypto_object:
-    case Aov::crypto_material:
-    case Aov::crypto_asset:
-        return cryptomatte_channels(cryptomatte_name(aov), options.cryptomatte_levels);
-    case Aov::light_groups:
-        return colors_of("light_", options.light_groups);
-    case Aov::layers:
-        return colors_of("layer_", options.layers);
-    default:
-        return names_of(layer, "RGB");
+std::vector<std::string> names_of(Aov aov, LayoutOptions const& options) {
+    scene::AovInfo const& info = info_of(aov);
+    switch (info.how) {
+    case Accumulation::Ids:
+        return cryptomatte_names(info, options.cryptomatte_levels);
+    case Accumulation::MeanPerLightGroup:
+        return names_per(options.light_groups, info);
+    case Accumulation::MeanPerLayer:
+        return names_per(options.layers, info);
+    case Accumulation::Beauty:
+    case Accumulation::Mean:
+    case Accumulation::Ratio:
+    case Accumulation::Nearest:
+    case Accumulation::SampleCount:
+    case Accumulation::Variance:
+        break;
     }
+    return names_in(std::string(info.layer), info.letters);
 }
 
 } // namespace
-
-int summed_numbers(Aov aov) {
-    if (is_nearest(aov) || is_cryptomatte(aov)) return 0;
-    if (aov == Aov::sample_count || aov == Aov::variance) return 0;
-    if (aov == Aov::shadow_catcher) return 6; // the light with and without other instances
-    return aov == Aov::alpha ? 1 : 3;
-}
-
-std::string cryptomatte_name(Aov aov) {
-    switch (aov) {
-    case Aov::crypto_object:
-        return "CryptoObject";
-    case Aov::crypto_material:
-        return "CryptoMaterial";
-    case Aov::crypto_asset:
-        return "CryptoAsset";
-    default:
-        return "";
-    }
-}
 
 Layout::Layout(std::span<Aov const> aovs, LayoutOptions options) : options_(std::move(options)) {
     offsets_.fill(-1);
@@ -114,25 +69,38 @@ Layout::Layout(std::span<Aov const> aovs, LayoutOptions options) : options_(std:
     first_recorded_ = 3 * halves * (options_.squares ? 2 : 1);
     sums_ = first_recorded_;
     offsets_[size_t(Aov::beauty)] = 0;
-    for (size_t i = 0; i < kAovCount; ++i) {
-        Aov const aov = Aov(i);
-        if (!has(aov)) continue;
-        has_light_ |= is_of_light(aov);
-        has_surface_ |= is_of_surface(aov);
-        has_nearest_ |= is_nearest(aov);
-        has_cryptomatte_ |= is_cryptomatte(aov);
-        if (aov == Aov::beauty || summed_numbers(aov) == 0) continue;
-        offsets_[i] = sums_;
+    for (Aov const aov : this->aovs()) {
+        scene::AovInfo const& info = info_of(aov);
+        has_light_ |= info.source == AovSource::Light;
+        has_surface_ |= info.source == AovSource::FirstSurface || info.source == AovSource::Guides;
+        has_nearest_ |= info.how == Accumulation::Nearest;
+        has_cryptomatte_ |= info.how == Accumulation::Ids;
+        if (aov == Aov::beauty || summed(aov) == 0) continue;
+        offsets_[size_t(aov)] = sums_;
         sums_ += summed(aov);
     }
     if (!has_cryptomatte_) options_.cryptomatte_levels = LayoutOptions().cryptomatte_levels;
 }
 
 int Layout::summed(Aov aov) const {
-    size_t const pictures = aov == Aov::light_groups ? options_.light_groups.size()
-                            : aov == Aov::layers     ? options_.layers.size()
-                                                     : 1;
-    return summed_numbers(aov) * int(pictures);
+    scene::AovInfo const& info = info_of(aov);
+    switch (info.how) {
+    case Accumulation::Beauty:
+    case Accumulation::Mean:
+        return info.channels();
+    case Accumulation::MeanPerLightGroup:
+        return info.channels() * int(options_.light_groups.size());
+    case Accumulation::MeanPerLayer:
+        return info.channels() * int(options_.layers.size());
+    case Accumulation::Ratio:
+        return 2 * info.channels();
+    case Accumulation::Nearest:
+    case Accumulation::Ids:
+    case Accumulation::SampleCount:
+    case Accumulation::Variance:
+        break;
+    }
+    return 0;
 }
 
 std::vector<Aov> Layout::aovs() const {
@@ -145,7 +113,7 @@ std::vector<Aov> Layout::aovs() const {
 std::vector<std::string> Layout::channel_names() const {
     std::vector<std::string> names;
     for (Aov aov : aovs())
-        for (std::string& n : channels_of(aov, options_)) names.push_back(std::move(n));
+        for (std::string& n : names_of(aov, options_)) names.push_back(std::move(n));
     return names;
 }
 

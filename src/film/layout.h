@@ -1,8 +1,9 @@
 // Which channels a film has, what they are called, and where each lies in a pixel's record.
 //
-// A pixel's sums start with the beauty (3 numbers); what else is asked for follows in the order of
-// `Aov`. Names follow OpenEXR's and the habits of Arnold and Cycles: R G B A, Z, P, N for what
-// every program knows, LAYER.R or LAYER.X for the rest; docs/aovs.md has the list.
+// All of it follows from the table of AOVs (scene/aov.h). A pixel's sums start with the beauty (3
+// numbers); what else is asked for follows in the order of the table. Names follow OpenEXR's and
+// the habits of Arnold and Cycles: R G B A, Z, P, N for what every program knows, LAYER.R or
+// LAYER.X for the rest; docs/aovs.md has the list.
 #pragma once
 
 #include <array>
@@ -14,10 +15,41 @@
 
 namespace weft::film {
 
+using scene::Accumulation;
 using scene::Aov;
-inline constexpr size_t kAovCount = scene::kAovs.size();
-
+using scene::AovSource;
+using scene::kAovCount;
 using scene::kDefaultGroup;
+
+/// The AOVs that are Cryptomattes, in the order of the table.
+inline constexpr auto kCryptomatteAovs = [] {
+    std::array<Aov, scene::count_of(Accumulation::Ids)> aovs{};
+    size_t i = 0;
+    for (scene::AovInfo const& info : scene::kAovs)
+        if (info.how == Accumulation::Ids) aovs[i++] = info.aov;
+    return aovs;
+}();
+inline constexpr size_t kCryptomattes = kCryptomatteAovs.size();
+
+/// Returns the place of a Cryptomatte in kCryptomatteAovs.
+constexpr size_t cryptomatte_index(Aov aov) {
+    size_t i = 0;
+    while (kCryptomatteAovs[i] != aov) ++i;
+    return i;
+}
+
+/// What a film keeps of the sample whose surface is nearest: the numbers of all AOVs of that kind,
+/// in the order of the table. The first is the depth, by which surfaces are compared.
+inline constexpr auto kNearestOffsets = [] {
+    std::array<int, kAovCount + 1> offsets{};
+    for (size_t i = 0; i < kAovCount; ++i) {
+        scene::AovInfo const& info = scene::kAovs[i];
+        offsets[i + 1] = offsets[i] + (info.how == Accumulation::Nearest ? info.channels() : 0);
+    }
+    return offsets;
+}();
+inline constexpr size_t kNearestNumbers = size_t(kNearestOffsets.back());
+static_assert(kNearestOffsets[size_t(Aov::depth)] == 0);
 
 struct LayoutOptions {
     bool half_sums = false; ///< beauty of the even samples, for error estimates
@@ -36,23 +68,25 @@ class Layout {
     Layout(std::span<Aov const> aovs, LayoutOptions options);
 
     bool has(Aov aov) const { return there_[size_t(aov)]; }
-    /// Whether samples bring more than beauty, in a SampleRecord.
+    /// Returns whether samples bring more than beauty, in a SampleRecord.
     bool needs_record() const {
         return sums_ > first_recorded_ || has_nearest_ || has_cryptomatte_;
     }
-    /// Whether the light of a path is told apart by where it came from and how.
+    /// Returns whether the light of a path is told apart by where it came from and how.
     bool has_light() const { return has_light_; }
-    /// Whether anything is asked of the surfaces that a path meets first.
+    /// Returns whether anything is asked of the surfaces that a path meets first.
     bool has_surface() const { return has_surface_; }
     bool has_nearest() const { return has_nearest_; }
     bool has_cryptomatte() const { return has_cryptomatte_; }
 
-    /// The first of a summed AOV's numbers in a record; -1 where it is not there or not summed.
+    /// Returns where the numbers of a summed AOV begin among a pixel's sums; -1 where it is not
+    /// there or not summed.
     int offset(Aov aov) const { return offsets_[size_t(aov)]; }
-    /// How many numbers it sums: those of each picture, where it has one per name.
+    /// Returns how many numbers of an AOV are summed, those of all its pictures together.
     int summed(Aov aov) const;
     int half_offset() const { return options_.half_sums ? 3 : -1; }
-    /// Of the squares of all samples; those of the even ones follow, where there are half sums.
+    /// Returns where the sums of the squares of all samples begin; those of the even ones follow,
+    /// where there are half sums.
     int squares_offset() const { return options_.squares ? (options_.half_sums ? 6 : 3) : -1; }
     /// Where the numbers begin that a SampleRecord hands over; what comes before is beauty's.
     int first_recorded() const { return first_recorded_; }
@@ -72,11 +106,5 @@ class Layout {
     int sums_ = 0, first_recorded_ = 0;
     bool has_light_ = false, has_surface_ = false, has_nearest_ = false, has_cryptomatte_ = false;
 };
-
-/// How many numbers a summed AOV has, or each of its pictures by name; 0 where it is not summed.
-int summed_numbers(Aov aov);
-
-/// What a Cryptomatte AOV is called in a file, "CryptoObject"; "" for any other.
-std::string cryptomatte_name(Aov aov);
 
 } // namespace weft::film

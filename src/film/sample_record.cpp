@@ -5,11 +5,42 @@
 
 namespace weft::film {
 
+namespace {
+
+/// The AOVs of light whose path is first scattered into a ray of this kind.
+struct ComponentAovs {
+    Aov direct, indirect;
+};
+
+ComponentAovs aovs_of(RayKind kind) {
+    switch (kind) {
+    case RayKind::camera: // light that is not scattered
+        return {Aov::emission, Aov::emission};
+    case RayKind::diffuse:
+        return {Aov::direct_diffuse, Aov::indirect_diffuse};
+    case RayKind::glossy:
+        return {Aov::direct_specular, Aov::indirect_specular};
+    case RayKind::transmission:
+        return {Aov::direct_transmission, Aov::indirect_transmission};
+    case RayKind::volume:
+        return {Aov::direct_volume, Aov::indirect_volume};
+    case RayKind::subsurface:
+        break;
+    }
+    return {Aov::direct_subsurface, Aov::indirect_subsurface};
+}
+
+} // namespace
+
 void SampleRecord::clear() {
+    drop();
+    set(Aov::alpha, 1.f); // until the path finds that it sees the background
+}
+
+void SampleRecord::drop() {
     std::fill(values_.begin(), values_.end(), 0.f);
     clear_shares();
     has_surface_ = has_guides_ = false;
-    alpha_ = 1;
 }
 
 void SampleRecord::clear_shares() {
@@ -49,34 +80,41 @@ void SampleRecord::add_light(Contribution const& c) {
         add_to(c.found == Found::InBackground ? Aov::background : Aov::emission, c.value);
         return;
     }
-    int const first = int(bounces == 1 ? Aov::direct_diffuse : Aov::indirect_diffuse);
-    for (size_t i = 0; i < kComponents; ++i)
-        add_to(Aov(first + 2 * int(i)), c.value * component_shares_[i]);
+    for (size_t i = 0; i < kComponents; ++i) {
+        ComponentAovs const aovs = aovs_of(RayKind(i + 1));
+        add_to(bounces == 1 ? aovs.direct : aovs.indirect, c.value * component_shares_[i]);
+    }
     for (LayerShare const& s : layer_shares_) add_to(Aov::layers, c.value * s.share, s.layer);
+}
+
+void SampleRecord::set_numbers(Aov aov, float const* numbers) {
+    scene::AovInfo const& info = info_of(aov);
+    if (!layout_.has(aov)) return;
+    float* const to = info.how == Accumulation::Nearest
+                          ? &nearest_[size_t(kNearestOffsets[size_t(aov)])]
+                          : &values_[size_t(layout_.offset(aov) - layout_.first_recorded())];
+    std::copy_n(numbers, info.channels(), to);
+}
+
+void SampleRecord::forget_surface() {
+    has_surface_ = false;
+    constexpr float zeros[4]{};
+    for (scene::AovInfo const& info : scene::kAovs)
+        if (info.source == AovSource::FirstSurface && info.how == Accumulation::Mean)
+            set_numbers(info.aov, zeros);
 }
 
 void SampleRecord::set_guides(Color const& albedo, Vec3 const& normal) {
     if (has_guides_) return;
-    guide_albedo_ = albedo;
-    guide_normal_ = normal;
+    set(Aov::denoise_albedo, albedo);
+    set(Aov::denoise_normal, normal);
     has_guides_ = true;
 }
 
 bool SampleRecord::finish() {
-    if (int const at = layout_.offset(Aov::alpha); at >= 0)
-        values_[size_t(at - layout_.first_recorded())] = alpha_;
-    if (has_surface_) {
-        add_to(Aov::normal, surface_.n);
-        add_to(Aov::normal_geometric, surface_.ng);
-        add_to(Aov::albedo, surface_.albedo);
-    }
-    if (has_guides_) {
-        add_to(Aov::denoise_albedo, guide_albedo_);
-        add_to(Aov::denoise_normal, guide_normal_);
-    }
     if (std::all_of(values_.begin(), values_.end(), [](float v) { return std::isfinite(v); }))
         return true;
-    clear();
+    drop();
     return false;
 }
 

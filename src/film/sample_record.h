@@ -21,12 +21,8 @@
 
 namespace weft::film {
 
-/// The components of light by the path's first scattering: each RayKind but the camera's, which is
-/// the order of Aov::direct_diffuse and so on.
+/// The components of light by the path's first scattering: each RayKind but the camera's.
 inline constexpr size_t kComponents = kRayKinds - 1;
-
-/// The three Cryptomattes, in the order of Aov::crypto_object and so on.
-inline constexpr size_t kCryptomattes = 3;
 
 /// What the things of a scene are called: light groups, layers and Cryptomatte ids, by the indices
 /// that contributions, lobes and surfaces carry.
@@ -39,16 +35,7 @@ struct SceneTags {
         std::vector<uint32_t> id_of_object; ///< bits of a float; 0: none
         std::map<std::string, uint32_t> manifest;
     };
-    std::array<Cryptomatte, kCryptomattes> cryptomattes;
-};
-
-/// The first surface that a camera ray scatters at.
-struct FirstSurface {
-    uint32_t object = 0;
-    float depth = 0; ///< along the camera's axis
-    Vec3 p{0, 0, 0}, n{0, 0, 1}, ng{0, 0, 1};
-    Vec2 uv{0, 0};
-    Color albedo;
+    std::array<Cryptomatte, kCryptomattes> cryptomattes; ///< of kCryptomatteAovs
 };
 
 class SampleRecord {
@@ -57,10 +44,13 @@ class SampleRecord {
     SampleRecord(Layout const& layout, SceneTags const& tags)
         : layout_(layout), tags_(tags), values_(size_t(layout.sums() - layout.first_recorded())) {
         layer_shares_.reserve(layout.options().layers.size());
+        clear();
     }
 
-    /// Forgets the last sample.
+    /// Forgets the last sample: a new one begins.
     void clear();
+    /// Drops the sample at hand: all numbers become 0.
+    void drop();
 
     void add(Contribution const& c) {
         if (layout_.has_light()) add_light(c);
@@ -72,8 +62,13 @@ class SampleRecord {
                              .light = c.light,
                              .bounces = c.bounces()});
     }
-    void add_removed(Color const& value) { add_to(Aov::removed, value); }
-    /// Light on a shadow catcher: with nothing in its way but other catchers, and as it is.
+    /// Sets an AOV that the path sets; nothing happens where it is not asked for. The value, of as
+    /// many numbers as the AOV has, takes the place of what was set before.
+    void set(Aov aov, float value) { set_numbers(aov, &value); }
+    void set(Aov aov, Vec2 const& v) { set_numbers(aov, std::array{v.x, v.y}.data()); }
+    void set(Aov aov, Vec3 const& v) { set_numbers(aov, std::array{v.x, v.y, v.z}.data()); }
+    void set(Aov aov, Color const& c) { set_numbers(aov, std::array{c.r, c.g, c.b}.data()); }
+    /// Adds light on a shadow catcher: with nothing in its way but other catchers, and as it is.
     void add_caught(Color const& lit, Color const& shadowed) {
         add_to(Aov::shadow_catcher, lit);
         add_to(Aov::shadow_catcher, shadowed, 1);
@@ -82,14 +77,14 @@ class SampleRecord {
     /// with its share, per channel. All add up to 1.
     void clear_shares();
     void add_share(RayKind component, uint16_t layer, Color const& share);
-    /// Each takes the place of what was said before.
-    void set_surface(FirstSurface const& surface) {
-        surface_ = surface;
+    /// Says that the path has met the object whose AOVs of source FirstSurface are set next.
+    void meet_surface(uint32_t object) {
+        object_ = object;
         has_surface_ = true;
     }
-    void forget_surface() { has_surface_ = false; }
-    void set_alpha(float alpha) { alpha_ = alpha; }
-    /// The guides of a denoiser; later calls change nothing.
+    /// Takes the surface back, and all AOVs of source FirstSurface.
+    void forget_surface();
+    /// Sets the guides of a denoiser; later calls change nothing.
     void set_guides(Color const& albedo, Vec3 const& normal);
     bool has_guides() const { return has_guides_; }
 
@@ -97,25 +92,28 @@ class SampleRecord {
     void keep_log(PathLog* log) { log_ = log; }
     PathLog* log() const { return log_; }
 
-    /// Writes what was set into `values`: once, when the path is done. False where a number is not
-    /// finite; all is 0 then.
+    /// Returns whether all numbers are finite, to be asked once, when the path is done. Where they
+    /// are not, the sample is dropped.
     bool finish();
 
     Layout const& layout() const { return layout_; }
     /// The summed numbers, from layout.first_recorded() on.
     std::span<float const> values() const { return values_; }
-    /// Null where the path met no surface.
-    FirstSurface const* surface() const { return has_surface_ ? &surface_ : nullptr; }
-    /// 0 where the path met no surface, or there is no such id.
+    /// The numbers that the film keeps of the nearest surface; null where the path met none.
+    std::array<float, kNearestNumbers> const* nearest() const {
+        return has_surface_ ? &nearest_ : nullptr;
+    }
+    /// Returns the id of a Cryptomatte, by its place in kCryptomatteAovs; 0 where the path met no
+    /// surface, or the surface has no such id.
     uint32_t cryptomatte_id(size_t which) const {
         auto const& ids = tags_.cryptomattes[which].id_of_object;
-        return has_surface_ && surface_.object < ids.size() ? ids[surface_.object] : 0;
+        return has_surface_ && object_ < ids.size() ? ids[object_] : 0;
     }
 
   private:
     void add_light(Contribution const& c);
     void add_to(Aov aov, Color const& value, int index = 0);
-    void add_to(Aov aov, Vec3 const& v) { add_to(aov, Color(v.x, v.y, v.z)); }
+    void set_numbers(Aov aov, float const* numbers);
 
     Layout const& layout_;
     SceneTags const& tags_;
@@ -126,11 +124,9 @@ class SampleRecord {
     };
     std::array<Color, kComponents> component_shares_{};
     std::vector<LayerShare> layer_shares_; ///< one for each layer
-    FirstSurface surface_;
-    Color guide_albedo_;
-    Vec3 guide_normal_{0, 0, 0};
+    std::array<float, kNearestNumbers> nearest_{};
     PathLog* log_ = nullptr;
-    float alpha_ = 1;
+    uint32_t object_ = 0; ///< of the first surface
     bool has_surface_ = false, has_guides_ = false;
 };
 

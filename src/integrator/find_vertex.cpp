@@ -47,7 +47,7 @@ bool hold_out(Tracer const& t, PathState& path, SurfaceVertex const& surface) {
     path.throughput = through;
     film::SampleRecord* const record = t.record();
     if (!is_black(through)) {
-        if (record) record->set_alpha(1 - path.held_out);
+        if (record) record->set(film::Aov::alpha, 1 - path.held_out);
         return true;
     }
     if (record) record_background(path, Color(0), *record);

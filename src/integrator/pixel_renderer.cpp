@@ -136,7 +136,7 @@ Color PixelRenderer::follow_light(world::Ray const& ray, sampling::SampleStream 
     if (record && record->layout().has(film::Aov::removed)) {
         film::SampleSink whole;
         trace_path({world_, stage_.lights(), unruled_, stream, whole}, ray, media_);
-        record->add_removed(whole.beauty() - sink.beauty());
+        record->set(film::Aov::removed, whole.beauty() - sink.beauty());
     }
     return sink.beauty();
 }

@@ -6,6 +6,8 @@ namespace weft::integrator {
 
 namespace {
 
+using film::Aov;
+
 /// The guides of denoisers take lobes of less width for mirrors. The value is that of Cycles.
 constexpr float kNarrowWidth = 0.075f;
 /// Where mirrors do at least this part of the scattering, the guides are those of what they show.
@@ -109,8 +111,13 @@ void set_surface(Tracer const& t, PathState const& path, Vertex const& here,
     Color const albedo = shading.bsdf.albedo(wo);
     if (first) {
         Vec3 const ng = dot(point.ng, wo) < 0 ? -point.ng : point.ng;
-        record.set_surface(
-            {point.object, t.world.camera().depth(point.p), point.p, n, ng, point.uv, albedo});
+        record.meet_surface(point.object);
+        record.set(Aov::depth, t.world.camera().depth(point.p));
+        record.set(Aov::position, point.p);
+        record.set(Aov::normal, n);
+        record.set(Aov::normal_geometric, ng);
+        record.set(Aov::uv, point.uv);
+        record.set(Aov::albedo, albedo);
     }
     // What shines is as good as seen, however it scatters.
     if (!is_black(shading.emission) || mirror_share(shading.bsdf) < kMirrorShare)
@@ -181,7 +188,7 @@ void record_background(PathState const& path, Color const& radiance, film::Sampl
                                  .value = path.throughput});
     // Divided, so that nothing in the way is exactly 0.
     Color const& t = path.throughput;
-    if (path.bounces() == 0) record.set_alpha(1 - (t.r + t.g + t.b) / 3 - path.held_out);
+    if (path.bounces() == 0) record.set(Aov::alpha, 1 - (t.r + t.g + t.b) / 3 - path.held_out);
     record.set_guides(guide_weight(path) * clamp(radiance, 0, 1), Vec3(0));
 }
 

@@ -68,12 +68,16 @@ film::SceneTags scene_tags(lights::Stage const& stage) {
     scene::Scene const& scene = world.scene();
     for (uint32_t i = 0; i < world.statistics().objects; ++i) {
         world::Object const& o = world.object(i);
-        std::string const names[film::kCryptomattes]{object_name(world, i), material_name(world, i),
-                                                     instance_name(scene, o.root_instance)};
-        for (size_t k = 0; k < film::kCryptomattes; ++k) {
-            uint32_t const id = names[k].empty() ? 0 : film::cryptomatte_id(names[k]);
-            tags.cryptomattes[k].id_of_object.push_back(id);
-            if (id != 0) tags.cryptomattes[k].manifest[names[k]] = id;
+        std::pair<film::Aov, std::string> const names[]{
+            {film::Aov::crypto_object, object_name(world, i)},
+            {film::Aov::crypto_material, material_name(world, i)},
+            {film::Aov::crypto_asset, instance_name(scene, o.root_instance)}};
+        static_assert(std::size(names) == film::kCryptomattes);
+        for (auto const& [aov, name] : names) {
+            film::SceneTags::Cryptomatte& matte = tags.cryptomattes[film::cryptomatte_index(aov)];
+            uint32_t const id = name.empty() ? 0 : film::cryptomatte_id(name);
+            matte.id_of_object.push_back(id);
+            if (id != 0) matte.manifest[name] = id;
         }
     }
     return tags;

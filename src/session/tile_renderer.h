@@ -76,7 +76,7 @@ class TileRenderer {
     }
 
     void report_bad(BadSample const& bad, film::SampleRecord* record) {
-        if (record) record->clear();
+        if (record) record->drop();
         std::lock_guard lock(mutex_);
         ++result_.bad_samples;
         auto& list = result_.first_bad_samples;

@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cmath>
+#include <numeric>
 
 #include "base/error.h"
 #include "base/hash.h"
@@ -138,14 +139,13 @@ Film made_up_film(Region const& region, Region const& part, uint32_t from, uint3
                 record.add_share(RayKind::glossy, 1, Color(0.25f));
                 record.add_share(RayKind::transmission, 0, Color(0.25f));
                 sink.add({Color(number()), -1, path, int32_t(rng.next_uint() % 3)});
-                if (rng.next() < 0.7f)
-                    record.set_surface({rng.next_uint() % 3,
-                                        number(),
-                                        Vec3(number()),
-                                        Vec3(0),
-                                        Vec3(0),
-                                        {number(), 1},
-                                        Color(0.5f)});
+                if (rng.next() < 0.7f) {
+                    record.meet_surface(rng.next_uint() % 3);
+                    record.set(Aov::depth, number());
+                    record.set(Aov::position, Vec3(number()));
+                    record.set(Aov::uv, Vec2(number(), 1));
+                    record.set(Aov::albedo, Color(0.5f));
+                }
                 record.finish();
                 film.add(x, y, s, sink.beauty(), &record);
             }
@@ -207,7 +207,12 @@ TEST(Film, KeepsWhatIsNearestAndRanksIds) {
     uint32_t index = 0;
     for (uint32_t object : {1u, 2u, 2u, 0u, 2u, 1u, 9u}) {
         record.clear();
-        if (object < 9) record.set_surface({object, 5.f - float(object), Vec3(float(object))});
+        if (object < 9) {
+            record.meet_surface(object);
+            record.set(Aov::depth, 5.f - float(object));
+            record.set(Aov::position, Vec3(float(object)));
+            record.set(Aov::albedo, Color(1)); // nobody has asked for it
+        }
         ASSERT_TRUE(record.finish());
         film.add(0, 0, index++, Color(1), &record);
     }
@@ -277,7 +282,7 @@ TEST(SampleRecord, TellsLightApart) {
     path.append({ScatteringKind::Glossy});
     sink.add({Color(8), 2, path, 2});
     sink.add({Color(16), 2, path, -1, Found::BySampling});
-    record.add_removed(Color(32));
+    record.set(Aov::removed, Color(32));
     ASSERT_TRUE(record.finish());
     EXPECT_EQ(first_value(record, Aov::emission), 1);
     EXPECT_EQ(first_value(record, Aov::background), 2);
@@ -294,11 +299,40 @@ TEST(SampleRecord, TellsLightApart) {
               0.75f * (4 + 8 + 16));
     EXPECT_EQ(first_value(record, Aov::removed), 32);
     EXPECT_EQ(sink.beauty(), Color(31));
+    auto const sum = [&] {
+        return std::accumulate(record.values().begin(), record.values().end(), 0.f);
+    };
     record.clear();
-    for (float v : record.values()) EXPECT_EQ(v, 0);
+    EXPECT_EQ(sum(), 1);
+    EXPECT_EQ(first_value(record, Aov::alpha), 1) << "until the path sees the background";
     record.set_guides(Color(NAN), Vec3(0));
     EXPECT_FALSE(record.finish());
-    for (float v : record.values()) EXPECT_EQ(v, 0);
+    EXPECT_EQ(sum(), 0);
+}
+
+TEST(SampleRecord, TakesASurfaceBack) {
+    Layout const layout(
+        std::vector{Aov::normal, Aov::albedo, Aov::denoise_albedo, Aov::depth, Aov::crypto_object},
+        {});
+    SceneTags const tags = test_tags();
+    SampleRecord record(layout, tags);
+    record.meet_surface(2);
+    record.set(Aov::normal, Vec3(1));
+    record.set(Aov::albedo, Color(2));
+    record.set(Aov::depth, 3.f);
+    record.set_guides(Color(4), Vec3(5));
+    record.set_guides(Color(6), Vec3(7));
+    ASSERT_TRUE(record.nearest());
+    EXPECT_EQ(record.nearest()->front(), 3);
+    EXPECT_EQ(record.cryptomatte_id(0), 0x3f000002u);
+    EXPECT_EQ(first_value(record, Aov::normal), 1);
+    EXPECT_EQ(first_value(record, Aov::albedo), 2);
+    record.forget_surface();
+    EXPECT_FALSE(record.nearest());
+    EXPECT_EQ(record.cryptomatte_id(0), 0u);
+    EXPECT_EQ(first_value(record, Aov::normal), 0);
+    EXPECT_EQ(first_value(record, Aov::albedo), 0);
+    EXPECT_EQ(first_value(record, Aov::denoise_albedo), 4) << "of another surface, perhaps";
 }
 
 } // namespace

@@ -68,6 +68,31 @@ image::Image select(image::Image const& image, std::vector<std::string> const& n
     return result;
 }
 
+/// Returns how the channels of an AOV are called in a file: "N.X N.Y N.Z", "albedo.R ...".
+std::string channels_text(scene::AovInfo const& info) {
+    std::string const layer(info.layer);
+    switch (info.how) {
+    case scene::Accumulation::Ids:
+        return layer + "00.R ...";
+    case scene::Accumulation::MeanPerLightGroup:
+    case scene::Accumulation::MeanPerLayer:
+        return layer + "NAME." + info.letters[0] + " ...";
+    case scene::Accumulation::Beauty:
+    case scene::Accumulation::Mean:
+    case scene::Accumulation::Ratio:
+    case scene::Accumulation::Nearest:
+    case scene::Accumulation::SampleCount:
+    case scene::Accumulation::Variance:
+        break;
+    }
+    if (info.letters.empty()) return layer;
+    if (layer == info.name) return layer + "." + info.letters[0] + " ...";
+    std::string text;
+    for (char letter : info.letters)
+        text += (text.empty() ? "" : " ") + layer + (layer.empty() ? "" : ".") + letter;
+    return text;
+}
+
 } // namespace
 
 image::ExrHeader picture_header(session::RenderResult const& r, session::Plan const& plan,
@@ -84,10 +109,10 @@ image::ExrHeader picture_header(session::RenderResult const& r, session::Plan co
         return fmt::format("<camera type=\"{}\"{}/>", c.info.type, schema::write_attributes(c));
     });
     for (size_t i = 0; i < film::kCryptomattes; ++i) {
-        auto const aov = film::Aov(size_t(film::Aov::crypto_object) + i);
-        if (!r.film.layout().has(aov)) continue;
-        header.texts.merge(film::cryptomatte_metadata(film::cryptomatte_name(aov),
-                                                      plan.tags.cryptomattes[i].manifest));
+        film::Aov const aov = film::kCryptomatteAovs[i];
+        if (plan.layout.has(aov))
+            header.texts.merge(film::cryptomatte_metadata(std::string(info_of(aov).layer),
+                                                          plan.tags.cryptomattes[i].manifest));
     }
     header.chromaticities = image::kRec709;
     header.world_to_camera = world_to_camera(camera);
@@ -177,7 +202,8 @@ std::string aovs_text() {
                        "`weft render SCENE --aov albedo,depth`, or aovs=\"albedo, depth\" of an "
                        "integrator.\n\n";
     for (scene::AovInfo const& aov : scene::kAovs)
-        text += fmt::format("  {:<22} {}\n  {:<22} {}\n", aov.name, aov.channels, "", aov.help);
+        text +=
+            fmt::format("  {:<22} {}\n  {:<22} {}\n", aov.name, channels_text(aov), "", aov.help);
     return text;
 }
 
