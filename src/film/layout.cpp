@@ -71,7 +71,7 @@ Layout::Layout(std::span<Aov const> aovs, LayoutOptions options) : options_(std:
     offsets_[size_t(Aov::beauty)] = 0;
     for (Aov const aov : this->aovs()) {
         scene::AovInfo const& info = info_of(aov);
-        has_light_ |= info.source == AovSource::Light;
+        has_light_ |= info.source == AovSource::Contribution;
         has_surface_ |= info.source == AovSource::FirstSurface || info.source == AovSource::Guides;
         has_nearest_ |= info.how == Accumulation::Nearest;
         has_cryptomatte_ |= info.how == Accumulation::Ids;

@@ -30,7 +30,7 @@ enum class Accumulation : uint8_t {
 /// Who sets an AOV of a sample (film/sample_record.h).
 enum class AovSource : uint8_t {
     Film,         ///< the film, from the beauty of the samples
-    Light,        ///< the record, from what the path contributes
+    Contribution, ///< the record, from what the path contributes
     FirstSurface, ///< the path, at the surface that it scatters at first; forgotten where it goes
                   ///< straight on there
     Guides,       ///< the path, at the first surface that is no mirror or clear glass
@@ -55,31 +55,34 @@ enum class AovSource : uint8_t {
     X(uv, "UV", "UV", Nearest, FirstSurface, "Texture coordinates of the nearest surface.")        \
     X(albedo, "albedo", "RGB", Mean, FirstSurface,                                                 \
       "The part of light that the first surface scatters.")                                        \
-    X(emission, "emission", "RGB", Mean, Light,                                                    \
+    X(emission, "emission", "RGB", Mean, Contribution,                                             \
       "Light of surfaces that the camera sees straight.")                                          \
-    X(background, "background", "RGB", Mean, Light,                                                \
+    X(background, "background", "RGB", Mean, Contribution,                                         \
       "Light from infinitely far away that the camera sees straight.")                             \
-    X(direct_diffuse, "direct_diffuse", "RGB", Mean, Light, "Light over one diffuse reflection.")  \
-    X(indirect_diffuse, "indirect_diffuse", "RGB", Mean, Light,                                    \
+    X(direct_diffuse, "direct_diffuse", "RGB", Mean, Contribution,                                 \
+      "Light over one diffuse reflection.")                                                        \
+    X(indirect_diffuse, "indirect_diffuse", "RGB", Mean, Contribution,                             \
       "Light over more bounces, the first (from the camera) a diffuse reflection.")                \
-    X(direct_specular, "direct_specular", "RGB", Mean, Light,                                      \
+    X(direct_specular, "direct_specular", "RGB", Mean, Contribution,                               \
       "Likewise for glossy and mirror reflection.")                                                \
-    X(indirect_specular, "indirect_specular", "RGB", Mean, Light,                                  \
+    X(indirect_specular, "indirect_specular", "RGB", Mean, Contribution,                           \
       "Likewise for glossy and mirror reflection.")                                                \
-    X(direct_transmission, "direct_transmission", "RGB", Mean, Light,                              \
+    X(direct_transmission, "direct_transmission", "RGB", Mean, Contribution,                       \
       "Likewise for all that goes through a surface.")                                             \
-    X(indirect_transmission, "indirect_transmission", "RGB", Mean, Light,                          \
+    X(indirect_transmission, "indirect_transmission", "RGB", Mean, Contribution,                   \
       "Likewise for all that goes through a surface.")                                             \
-    X(direct_volume, "direct_volume", "RGB", Mean, Light, "Likewise for scattering in media.")     \
-    X(indirect_volume, "indirect_volume", "RGB", Mean, Light, "Likewise for scattering in media.") \
-    X(direct_subsurface, "direct_subsurface", "RGB", Mean, Light,                                  \
+    X(direct_volume, "direct_volume", "RGB", Mean, Contribution,                                   \
+      "Likewise for scattering in media.")                                                         \
+    X(indirect_volume, "indirect_volume", "RGB", Mean, Contribution,                               \
+      "Likewise for scattering in media.")                                                         \
+    X(direct_subsurface, "direct_subsurface", "RGB", Mean, Contribution,                           \
       "Likewise for scattering below a surface.")                                                  \
-    X(indirect_subsurface, "indirect_subsurface", "RGB", Mean, Light,                              \
+    X(indirect_subsurface, "indirect_subsurface", "RGB", Mean, Contribution,                       \
       "Likewise for scattering below a surface.")                                                  \
-    X(light_groups, "light_", "RGB", MeanPerLightGroup, Light,                                     \
+    X(light_groups, "light_", "RGB", MeanPerLightGroup, Contribution,                              \
       "One picture per `group` of lights, and light_default of all others; they add up to the "    \
       "beauty.")                                                                                   \
-    X(layers, "layer_", "RGB", MeanPerLayer, Light,                                                \
+    X(layers, "layer_", "RGB", MeanPerLayer, Contribution,                                         \
       "One picture per `label` of materials' layers, of the light that the camera sees this "      \
       "layer scatter, and layer_default of all other light; they add up to the beauty.")           \
     X(denoise_albedo, "denoise_albedo", "RGB", Mean, Guides,                                       \
