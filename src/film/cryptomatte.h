@@ -11,15 +11,15 @@
 
 namespace weft::film {
 
-/// MurmurHash3_x86_32 (A. Appleby) of the bytes of `text`.
+/// Returns MurmurHash3_x86_32 (A. Appleby) of the bytes of `text`.
 uint32_t murmur_hash3(std::string_view text, uint32_t seed = 0);
 
-/// The bits of the float that stands for `name`: its hash, with the lowest bit of the exponent
-/// turned where it would be 0, a subnormal number, an infinity or not a number.
+/// Returns the bits of the float that stands for `name`: its hash, with the lowest bit of the
+/// exponent flipped where it would be 0, a subnormal number, an infinity or not a number.
 uint32_t cryptomatte_id(std::string_view name);
 
-/// What the header of a file says about the Cryptomatte called `layer` ("CryptoObject"): how names
-/// became ids, and which did.
+/// Returns what the header of a file says about the Cryptomatte called `layer` ("CryptoObject"):
+/// how names became ids, and which names did.
 image::Metadata cryptomatte_metadata(std::string const& layer,
                                      std::map<std::string, uint32_t> const& manifest);
 

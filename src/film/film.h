@@ -1,6 +1,6 @@
 // The picture while it is made: per pixel the sums of its samples, of all channels that the layout
 // has, and their number. Sums are kept in double and every pixel adds its samples in their order,
-// so the result does not depend on who computes what when.
+// so the result does not depend on threads and tiles.
 //
 // Depth, position and texture coordinates are not averaged, for a mean of two surfaces lies on
 // neither: they are those of the sample whose surface is nearest. Cryptomattes count samples by id.
@@ -58,38 +58,39 @@ class Film {
         friend bool operator==(Counts const&, Counts const&) = default;
     };
     Counts counts(int x, int y) const { return counts_[pixel_index(x, y)]; }
-    /// The number of samples of the pixel that has fewest.
+    /// Returns the number of samples of the pixel that has fewest.
     uint32_t least_samples() const;
 
-    /// Means of the beauty's samples; black where there is none yet. Of the even samples, and of
-    /// the odd ones, where the layout has half sums.
+    /// Return the mean of the beauty's samples, of those with even numbers, and of those with odd
+    /// ones; black where there is none. The latter two need a layout with half sums.
     Color mean(int x, int y) const;
     Color even_mean(int x, int y) const;
     Color odd_mean(int x, int y) const;
-    /// Variance of the pixel's mean: of n samples s^2 / n, as if they were independent, which is
-    /// more than that of stratified ones. 0 for fewer than 2 samples. Where the layout has squares.
+    /// Returns the variance of the pixel's mean: s^2 / n of n samples, as if they were independent.
+    /// That of stratified samples is smaller. 0 for fewer than 2 samples. Needs a layout with
+    /// squares.
     Color variance(int x, int y) const;
-    /// How far off the mean is likely to be, by its two halves, which know of the samples'
-    /// stratification: sum |mean - even mean| / sqrt(sum mean) over the channels (Dammertz et al.
-    /// 2010, "A hierarchical automatic stopping condition for Monte Carlo global illumination"). 0
-    /// where there is an empty half. Noisy for a single pixel: to be looked at over several.
+    /// Estimates the error of the mean from its two halves, which see the effect of stratification:
+    /// sum |mean - even mean| / sqrt(sum mean) over the channels (Dammertz et al. 2010, "A
+    /// hierarchical automatic stopping condition for Monte Carlo global illumination"). 0 where
+    /// there is an empty half. The estimate of a single pixel is noisy: take it over several.
     float error(int x, int y) const;
 
-    /// The beauty, RGB.
+    /// Returns the beauty, RGB.
     image::Image mean() const;
-    /// All channels, by layout().channel_names().
+    /// Returns all channels, called by layout().channel_names().
     image::Image image() const;
 
     /// Adds the samples of `part`, which are others than this film has. Throws InputError where the
     /// layouts differ or `part` has pixels outside of this film.
     void merge(Film const& part);
 
-    /// All that the film holds, to the bit: reading it gives an equal film.
+    /// Returns all that the film holds as bytes, of which `read_state` makes an equal film.
     std::string write_state() const;
-    /// Throws InputError where `bytes` are not what `write_state` wrote.
+    /// Makes a film of such bytes. Throws InputError where they are not what `write_state` wrote.
     static Film read_state(std::string_view bytes);
 
-    /// Bytes that a film of this layout takes for each pixel, but for Cryptomattes.
+    /// Returns the bytes that a film of this layout takes for each pixel, Cryptomattes left out.
     static size_t bytes_per_pixel(Layout const& layout);
 
     friend bool operator==(Film const& a, Film const& b);

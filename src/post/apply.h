@@ -15,8 +15,8 @@ struct Inputs {
     }
 };
 
-/// The new picture, and what to note in its file about how it was made ("denoising (nlm)").
-/// Throws InputError without a place.
+/// A picture that a postprocess has made, and what to note in its file about how ("denoising
+/// (nlm)"). Throws InputError without a place.
 struct Applied {
     image::Image image;
     std::string how;

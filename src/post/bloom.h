@@ -20,13 +20,13 @@
 
 namespace weft::post {
 
-/// K for a picture of that size whose width is `fov` degrees.
+/// Returns K for a picture of that size, in pixels, whose width is `fov` degrees.
 EvenKernel glare_kernel(int width, int height, float fov);
-/// A Gaussian that ends at `radius` pixels.
+/// Returns a Gaussian that ends at `radius` pixels; `sigma` is in pixels, too.
 EvenKernel gaussian_kernel(int width, int height, float sigma, int radius);
 
-/// Of the first three channels, or the first where there are fewer; the others stay. `bloom.input`
-/// and `bloom.image` do not matter.
+/// Returns the picture with bloom in its first three channels, or in the first where there are
+/// fewer; the others stay as they are. Does not read `bloom.input` and `bloom.image`.
 image::Image apply_bloom(scene::Bloom const& bloom, image::Image const& image);
 
 } // namespace weft::post

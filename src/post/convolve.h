@@ -20,8 +20,8 @@ struct EvenKernel {
     std::vector<float> weights;
 };
 
-/// One channel of finite values, width * height of them, in place. Their sum stays to 1e-5 of it;
-/// single values are off by some 1e-7 of the root mean square of all.
+/// Convolves one channel in place: width * height finite values. Their sum changes by at most 1e-5
+/// of itself, and single values have errors of some 1e-7 of the root mean square of all.
 void convolve(std::vector<float>& values, EvenKernel const& kernel);
 
 } // namespace weft::post

@@ -22,8 +22,8 @@ namespace weft::post {
 
 using Backend = scene::DenoiseBackend;
 
-/// `high`: the noise is taken out of albedo and normal first, where both are there, and then the
-/// larger network; `balanced`: the smaller network for guides with noise.
+/// How much work to spend. `high` denoises albedo and normal first, where both are given, and then
+/// the colour with the larger network. `balanced` uses the smaller network, made for noisy guides.
 using Quality = scene::DenoiseQuality;
 
 struct DenoiseInput {
@@ -55,16 +55,17 @@ struct Denoised {
     bool lacks_weights = false;
 };
 
-/// Throws InputError where sizes or numbers of channels do not go together, where memory does not
-/// suffice, or where the backend that is asked for is not there: the message then says how to get
-/// it.
+/// Denoises a picture. Throws InputError where sizes or numbers of channels do not match, where the
+/// memory is too small, or where the system lacks the backend that is asked for; the message then
+/// says how to get it.
 Denoised denoise(DenoiseInput const& input, DenoiseOptions const& options);
 
-/// As it is written in files.
+/// Returns the name of a backend as files have it.
 std::string_view backend_name(Backend backend);
 
-/// Normals as the `normal` and `aov` integrators draw them become vectors: where no value is
-/// negative they are taken for (n + 1) / 2, with black (nothing there) as 0. Others stay.
+/// Returns normals as vectors. Where no value is negative, the picture is taken for (n + 1) / 2, as
+/// the `normal` and `aov` integrators draw it, and its black pixels for 0, no surface. Any other
+/// picture is returned as it is.
 image::Image unpack_normals(image::Image const& picture);
 
 } // namespace weft::post

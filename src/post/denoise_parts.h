@@ -23,8 +23,8 @@ struct DenoisedParts {
     bool lacks_weights = false; ///< as of `Denoised`
 };
 
-/// `guides` gives albedo and normal, and what the sum is to keep; its colour is not used. Throws as
-/// `denoise`.
+/// Denoises the parts. `guides` has albedo and normal, and the light that the sum is to keep; its
+/// colour is not read. Throws as `denoise` does.
 DenoisedParts denoise_parts(std::span<image::Image const> parts, DenoiseInput guides,
                             DenoiseOptions const& options);
 

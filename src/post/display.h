@@ -29,13 +29,13 @@ struct DisplayChain {
     std::string warning;     ///< "" where there is none
 };
 
-/// Throws InputError, at `where`, for what white_balance.h and ocio_view.h refuse, for a view that
-/// is neither Weft's nor that of `display.ocio` or $OCIO, and for a display without a
-/// configuration.
+/// Makes the chain that `display` describes. Throws InputError, at `where`, for what
+/// white_balance.h and ocio_view.h refuse, for a view that is neither Weft's nor in the
+/// configuration (`display.ocio` or $OCIO), and for a display where there is no configuration.
 DisplayChain make_display_chain(scene::Display const& display, SourceLocation const& where);
 
-/// What becomes of colours that are premultiplied by an alpha: they are shown by themselves and
-/// the alpha is kept, or they are shown as they are, over black, and it is dropped.
+/// What to do with colours that are premultiplied by an alpha: divide by it and keep it, or show
+/// them as they are, over black, and drop it.
 enum class Alpha { keep, drop };
 
 /// Shows a linear image. The result `is_srgb_encoded`: numbers for a screen in [0, 1], colours not
@@ -44,8 +44,8 @@ enum class Alpha { keep, drop };
 /// shown; throws InputError where more than four have none of these names.
 image::Image show(DisplayChain const& chain, image::Image const& image, Alpha alpha);
 
-/// Writes through the chain where the file is for screens, with the chain's description in its
-/// header ("ImageDescription"); and else as `image::write_image` does.
+/// Writes a picture. Files for screens get what the chain makes of it, and the chain's description
+/// in their header ("ImageDescription"); all others are written as `image::write_image` does.
 void write_picture(std::string const& path, image::Image const& image, DisplayChain const& chain,
                    image::Metadata metadata);
 

@@ -7,12 +7,12 @@
 
 namespace weft::post {
 
-/// A colour's channel as light: what is not finite or negative counts as 0.
+/// Returns a channel of a colour as light: 0 where it is negative or not finite.
 inline float sane(float x) { return std::isfinite(x) && x > 0 ? x : 0.f; }
 
-/// The scale that brings the geometric mean of the luminance of blocks of about 16 x 16 pixels to
-/// 0.18 (Reinhard et al. 2002; blocks, since single pixels are noise). Black blocks do not count; 1
-/// where all are black. The first three channels are linear RGB.
+/// Returns the scale that brings the geometric mean of the luminance of blocks of about 16 x 16
+/// pixels to 0.18 (Reinhard et al. 2002; blocks, since single pixels are noise). Black blocks do
+/// not count; 1 where all are black. The first three channels are linear RGB.
 float auto_exposure(image::Image const& color);
 
 } // namespace weft::post

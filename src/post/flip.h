@@ -20,9 +20,9 @@ namespace weft::post {
 /// A screen 0.7 m wide of 3840 pixels, seen from 0.7 m.
 inline constexpr float kPixelsPerDegree = 67.0206433f;
 
-/// Errors in [0, 1], one channel. The images have the same size and the same number of colours:
-/// linear RGB, clipped to [0, 1] (grey where there are one or two channels). Throws InputError
-/// where they have not.
+/// Returns the error of each pixel, in [0, 1], as a picture of one channel. The images have the
+/// same size and the same number of colours: linear RGB, clipped to [0, 1] (grey where there are
+/// one or two channels). Throws InputError where they have not.
 image::Image ldr_flip(image::Image const& reference, image::Image const& test,
                       float pixels_per_degree = kPixelsPerDegree);
 
@@ -32,11 +32,11 @@ struct HdrFlip {
     int exposures = 0;         ///< how many
 };
 
-/// The same for light of any brightness; negative and non-finite values count as 0.
+/// Does the same for light of any brightness; negative and non-finite values count as 0.
 HdrFlip hdr_flip(image::Image const& reference, image::Image const& test,
                  float pixels_per_degree = kPixelsPerDegree);
 
-/// Mean of a map of errors: the number that the papers give for a pair of pictures.
+/// Returns the mean of a map of errors: the number that the papers give for a pair of pictures.
 double mean_error(image::Image const& errors);
 
 } // namespace weft::post

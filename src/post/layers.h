@@ -13,23 +13,23 @@ namespace weft::post {
 
 using ChannelTriple = std::array<int, 3>;
 
-/// The channels LAYER.R, LAYER.G, LAYER.B or LAYER.X, LAYER.Y, LAYER.Z; for "" R, G, B alone.
-/// Letters may be small or capital.
+/// Returns the channels LAYER.R, LAYER.G, LAYER.B or LAYER.X, LAYER.Y, LAYER.Z; for the layer ""
+/// the channels R, G, B. Letters may be small or capital.
 std::optional<ChannelTriple> find_layer(std::vector<std::string> const& channels,
                                         std::string const& layer);
 
-/// The layer that is called what renderers call the guides of denoisers, or else the albedo or the
-/// normals, in any case and whatever stands before it and a dot ("ViewLayer.Denoising Albedo"); ""
-/// where there is none. In this order: "denoise_albedo", "denoising albedo", "albedo";
+/// Returns the layer that guides a denoiser, or "" where there is none. It is known by its name, in
+/// small or capital letters, which may follow others and a dot ("ViewLayer.Denoising Albedo"). The
+/// first of these that the file has is taken: "denoise_albedo", "denoising albedo", "albedo";
 /// "denoise_normal", "denoising normal", "normal", "normals", "N", "Ns", "sh_normal".
 std::string find_albedo_layer(std::vector<std::string> const& channels);
 std::string find_normal_layer(std::vector<std::string> const& channels);
 
-/// All layers of three channels, in the order of the file.
+/// Returns the names of all layers of three channels, in the order of the file.
 std::vector<std::string> layer_names(std::vector<std::string> const& channels);
 
 image::Image take_channels(image::Image const& from, ChannelTriple const& channels);
-/// The other way: of equal size.
+/// Writes the three channels of a picture of equal size to those of `to`.
 void put_channels(image::Image const& three, ChannelTriple const& channels, image::Image& to);
 
 } // namespace weft::post

@@ -28,27 +28,29 @@ struct NetworkWeights {
     std::string color, albedo, normal;
 };
 
-/// The names of the files for these inputs. Normals without albedo are of no use to the network.
+/// Returns the names of the files that the network for these inputs needs. The network does not use
+/// normals without an albedo.
 NetworkWeights weights_files(DenoiseInput const& input, Quality quality);
 
-/// The paths of those files where all of them are in the folders (each may be in another).
+/// Returns the paths of those files, or nothing where one is in none of the folders.
 std::optional<NetworkWeights> find_weights(NetworkWeights const& files,
                                            std::vector<std::string> const& folders);
 
-/// Light, scaled to the picture's exposure and in [0, 65504], to [0, 1] in steps that look alike: a
-/// fit of the curve of Aydin, Mantiuk and Seidel 2008 ("Extending Quality Metrics to Full
-/// Luminance Range Images"), normalised at 100 cd/m^2 and to 1 at 65504, as the network was trained
-/// with.
+/// Maps light, scaled to the picture's exposure and in [0, 65504], to [0, 1], in steps that look
+/// alike to the eye; `decode_hdr` maps back. It is a fit of the curve of Aydin, Mantiuk and Seidel
+/// 2008 ("Extending Quality Metrics to Full Luminance Range Images"), normalised at 100 cd/m^2 and
+/// to 1 at 65504, as the network was trained with.
 float encode_hdr(float light);
 float decode_hdr(float code);
 
-/// Into how many tiles it would cut a picture with that many inputs; 0: not even those suffice.
+/// Returns into how many tiles `denoise_network` would cut a picture with that many input channels;
+/// 0 where `memory` megabytes do not suffice for the smallest.
 int tile_count(UnetSize size, int width, int height, int channels, int memory);
 
-/// `weights`: paths. Throws InputError where one is not what it should be, or where `memory`
-/// megabytes do not suffice for the smallest tiles. The size of the tiles changes pixels by
-/// rounding alone (relatively about 1e-5). The result does not depend on threads; it depends on the
-/// instruction set in the last bits.
+/// Denoises a picture with the weights at these paths. Throws InputError where one is not what it
+/// should be, or where `memory` megabytes do not suffice for the smallest tiles. The size of the
+/// tiles changes pixels by rounding alone (relatively about 1e-5). The result does not depend on
+/// threads; it depends on the instruction set in the last bits.
 image::Image denoise_network(DenoiseInput const& input, NetworkWeights const& weights, int memory);
 
 } // namespace weft::post

@@ -23,8 +23,8 @@
 
 namespace weft::post {
 
-/// Where an image is given it has the size of the colour and at least three channels. Pixels depend
-/// neither on threads nor on tiles. Works in tiles: takes a few megabytes per thread.
+/// Denoises a picture. Guides that are given have the size of the colour and at least three
+/// channels. The result depends neither on threads nor on tiles; a thread takes a few megabytes.
 image::Image denoise_nlm(DenoiseInput const& input);
 
 } // namespace weft::post

@@ -15,7 +15,7 @@
 
 namespace weft::post {
 
-/// Which view; an empty name is the configuration's default.
+/// Names a view; an empty name is the configuration's default.
 struct OcioChoice {
     std::string config; ///< path of a file
     std::string display, view;
@@ -24,11 +24,11 @@ struct OcioChoice {
 
 class OcioView {
   public:
-    /// Throws InputError, with the nearest name, where the file, the display, the view or the
-    /// colour space is not there, or what the view needs (a table in a file) is not.
+    /// Throws InputError, with the nearest name, where there is no such file, display, view or
+    /// colour space, or where a file is missing that the view needs.
     explicit OcioView(OcioChoice const& choice);
 
-    /// `count` linear pixels of RGB, in place. Values that are not numbers give those of black.
+    /// Shows `count` linear pixels of RGB, in place. A value that is not a number is taken for 0.
     void apply(float* rgb, size_t count) const;
 
     std::string const& display() const { return display_; }
@@ -42,12 +42,14 @@ class OcioView {
     std::string display_, view_, input_space_, warning_;
 };
 
-/// What a configuration has, in its order, the default first.
+/// A display that a configuration has, and its views in the configuration's order, the default
+/// first.
 struct OcioDisplay {
     std::string name;
     std::vector<std::string> views;
 };
-/// Throws InputError where the file cannot be read.
+/// Returns the displays of a configuration, the default first. Throws InputError where the file
+/// cannot be read.
 std::vector<OcioDisplay> ocio_displays(std::string const& config);
 
 } // namespace weft::post

@@ -12,12 +12,12 @@ namespace weft::post {
 /// The library, loaded; it stays loaded until the program ends, since its threads may.
 class OidnLibrary {
   public:
-    /// The first of `names` that the dynamic linker finds and that has all functions. With none,
-    /// `*this` is false and `problem` says why.
+    /// Loads the first of `names` that the dynamic linker finds and that has all functions. Where
+    /// none has, `*this` is false and `problem` says why.
     explicit OidnLibrary(std::vector<std::string> const& names);
     explicit operator bool() const { return handle_ != nullptr; }
     std::string const& problem() const { return problem_; }
-    /// Null where there is no such function.
+    /// Returns a function of the library, or null where it has none of this name.
     void* function(char const* name) const;
 
   private:
@@ -25,9 +25,9 @@ class OidnLibrary {
     std::string problem_;
 };
 
-/// With albedo and normal and `high` quality the noise is taken out of these first, as the
-/// library's documentation advises (version 1.4 or newer). Throws InputError with the library's
-/// message where it fails. `memory` is in megabytes.
+/// Denoises a picture. At `high` quality albedo and normal, where both are given, are denoised
+/// first, as the library's documentation advises (version 1.4 or newer). Throws InputError with the
+/// library's message where it fails. `memory` is in megabytes.
 image::Image denoise_oidn(OidnLibrary const& library, DenoiseInput const& input, Quality quality,
                           int memory);
 

@@ -12,7 +12,7 @@
 
 namespace weft::post {
 
-/// Along one axis: the window is [begin, begin + size), and its pixels [from, to) are used.
+/// A window along one axis: it is [begin, begin + size), and its pixels [from, to) are used.
 struct Window {
     int begin, from, to;
 };
@@ -27,15 +27,15 @@ struct TilingRules {
     int reach = 96; ///< a multiple of the alignment
 };
 
-/// `count` windows for `length` pixels, as small as can be.
+/// Cuts `length` pixels into `count` windows that are as small as can be.
 AxisTiling tile_axis(int length, int count, TilingRules const& rules);
 
 struct Tiling {
     AxisTiling x, y;
 };
 
-/// The windows with the fewest pixels in all for which memory(width, height) of a window is at most
-/// `limit` bytes. Where none is small enough, `x.windows` is empty.
+/// Chooses windows with the fewest pixels in all of which each takes at most `limit` bytes, by
+/// memory(width, height). Where none is small enough, `x.windows` is empty.
 Tiling tile_picture(int width, int height, TilingRules const& rules, size_t limit,
                     std::function<size_t(int width, int height)> const& memory);
 

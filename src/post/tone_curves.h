@@ -35,7 +35,8 @@ constexpr Matrix3 inverse(Matrix3 const& m) {
     return result;
 }
 
-/// Its rows scaled to the sum 1, so that grey stays grey to the last digit that is published.
+/// Returns the matrix with each row scaled to the sum 1, so that grey stays grey in spite of the
+/// rounding of the published digits.
 constexpr Matrix3 grey_kept(Matrix3 m) {
     for (auto& row : m) {
         double const sum = row[0] + row[1] + row[2];
@@ -49,7 +50,8 @@ inline Color times(Matrix3 const& m, Color const& c) {
     return {row(0), row(1), row(2)};
 }
 
-/// Infinity becomes what every curve takes for it, not-a-number and negative light 0.
+/// Returns the colour in the range that every curve takes: infinity becomes a large number, and
+/// what is negative or not a number becomes 0.
 inline Color bounded(Color const& c) {
     auto bound = [](float x) { return x > 0 ? std::min(x, 1e6f) : 0; };
     return {bound(c.r), bound(c.g), bound(c.b)};
@@ -77,7 +79,7 @@ inline constexpr detail::Matrix3 kInset =
                         {0.0423756549057051, 0.0784336, 0.879142973793104}}});
 inline constexpr detail::Matrix3 kOutset = detail::inverse(kInset);
 
-/// From [0, 1] to [0, 1], ends included.
+/// Maps [0, 1] to [0, 1], ends included.
 inline float sigmoid(float x) {
     bool const toe = x < kPivot;
     float const power = toe ? kToe : kShoulder;
@@ -91,7 +93,7 @@ inline float sigmoid(float x) {
     return std::clamp(kPivotValue + (toe ? -away : away), 0.f, 1.f);
 }
 
-/// Linear light of one channel to a value for a display with a gamma of 2.2.
+/// Maps linear light of one channel to a value for a display with a gamma of 2.2.
 inline float curve(float light) {
     float const stops = std::log2(std::max(light, 1e-10f) / kMiddleGrey);
     return sigmoid(std::clamp((stops + kStopsBelow) / (kStopsBelow + kStopsAbove), 0.f, 1.f));

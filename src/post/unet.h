@@ -23,17 +23,17 @@ inline constexpr int kUnetAlignment = 16;
 
 enum class UnetSize { base, large };
 
-/// Which topology the names of the layers are of.
+/// Returns which topology the names of the layers belong to.
 UnetSize unet_size(Weights const& weights);
 
-/// Pixels further than this from a pixel do not reach it; a multiple of the alignment.
+/// Returns how many pixels away the input still changes an output; a multiple of the alignment.
 constexpr int unet_reach(UnetSize size) { return size == UnetSize::large ? 112 : 96; }
 
 class Unet {
   public:
-    /// For pictures of this size in pixels. Throws InputError, naming `name`, where the weights are
-    /// not those of such a network with `channels` inputs, and dnnl::error (a std::exception) where
-    /// memory is short.
+    /// Prepares the network for pictures of this size in pixels. Throws InputError, naming `name`,
+    /// where the weights are not those of such a network with `channels` inputs, and dnnl::error (a
+    /// std::exception) where memory is short.
     Unet(Weights const& weights, std::string const& name, int channels, int width, int height);
     ~Unet();
 

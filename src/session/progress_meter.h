@@ -13,7 +13,7 @@ namespace weft::session {
 /// Reports every fifth of a second, from whichever thread calls `add` first after that.
 class ProgressMeter {
   public:
-    /// `before`: pixel samples and seconds of the render that this one goes on from.
+    /// `samples_before` and `seconds_before` are those of the render that this one goes on from.
     ProgressMeter(RenderOptions const& options, double samples_before, double seconds_before)
         : options_(options), before_(samples_before), seconds_before_(seconds_before) {}
 
@@ -45,7 +45,7 @@ class ProgressMeter {
 
     double done() const { return before_ + made_; } ///< pixel samples of the film
     double rate() const { return made_ / std::max(seconds(), 1e-9); }
-    /// Since the start of this render.
+    /// Returns the seconds since the start of this render.
     double seconds() const {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     }

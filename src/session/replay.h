@@ -20,13 +20,13 @@ struct Replay {
     film::PathLog events;
 };
 
-/// Throws InputError for a pixel outside of the picture and for an integrator that follows no
-/// light.
+/// Traces one sample again. Throws InputError for a pixel outside of the picture and for an
+/// integrator that follows no light.
 Replay replay(lights::Stage const& stage, scene::RenderJob const& job,
               ReplayOptions const& options);
 
-/// For a terminal: each vertex with its object and material, how the path went on, and what light
-/// it gained there.
+/// Returns a text for a terminal: each vertex with its object and material, how the path went on,
+/// and what light it gained there.
 std::string replay_text(lights::Stage const& stage, Replay const& replay);
 
 } // namespace weft::session

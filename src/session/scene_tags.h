@@ -6,12 +6,13 @@
 
 namespace weft::session {
 
-/// Objects are called by the id of their instance, behind that of the outermost instance where it
-/// is a member of a group ("robot/arm"); materials by theirs, or else by their type and place in
-/// the file ("diffuse_3"); assets by the outermost instance's.
+/// Returns the names and ids of all things. An asset is called by the id of its outermost instance.
 film::SceneTags scene_tags(lights::Stage const& stage);
+/// Returns the id of an object's instance; of a member of a group, after that of the outermost
+/// instance and a slash ("robot/arm").
 std::string object_name(world::World const& world, uint32_t object);
-/// "" where it has no material.
+/// Returns the id of an object's material, or else its type and place in the file ("diffuse_3"); ""
+/// where the object has no material.
 std::string material_name(world::World const& world, uint32_t object);
 
 } // namespace weft::session

@@ -20,13 +20,14 @@ struct Part {
     friend bool operator==(Part const&, Part const&) = default;
 };
 
-/// "shard 2/4", "samples 0:32", "shard 2/4 of samples 0:32", or "the whole picture".
+/// Returns "shard 2/4", "samples 0:32", "shard 2/4 of samples 0:32", or "the whole picture".
 std::string to_string(Part const& part);
 
-/// Row by row; those at the right and lower edge may be smaller.
+/// Cuts a region into tiles of `size` pixels, row by row. Those at the right and lower edge may be
+/// smaller.
 std::vector<film::Region> make_tiles(film::Region const& region, int size);
 
-/// Those of `part`.
+/// Returns those tiles that are of `part`.
 std::vector<film::Region> make_tiles(film::Region const& region, int size, Part const& part);
 
 } // namespace weft::session

@@ -11,8 +11,8 @@
 
 namespace weft::session {
 
-/// Calls each watcher after its interval, again and again, with what `snapshot` gives; not while
-/// an earlier call goes on. The end of its life waits for a call that goes on.
+/// Calls each watcher again and again, after its interval, with the state that `snapshot` returns.
+/// One call is made at a time, and the destructor waits for it.
 class Watching {
   public:
     Watching(std::vector<Watcher> const& watchers, std::function<RenderState()> snapshot);

@@ -21,7 +21,7 @@ struct CheckpointArguments {
 
 void add_checkpoint_options(CLI::App& command, CheckpointArguments& arguments);
 
-/// "90", "90s", "1.5m" or "2h" as seconds. Throws InputError naming `option`.
+/// Reads "90", "90s", "1.5m" or "2h" and returns the seconds. Throws InputError naming `option`.
 double parse_duration(std::string const& text, std::string const& option);
 
 /// The checkpoint of one job. Nothing is written over before it is known to be of the same render.
@@ -33,10 +33,11 @@ class Checkpoint {
     Checkpoint(CheckpointArguments const& arguments, std::string const& output,
                session::RenderState const& start);
 
-    /// What is there already.
+    /// Returns the state that was found; null where there was none.
     session::RenderState const* found() const { return found_ ? &*found_ : nullptr; }
+    /// Returns what keeps the checkpoint up to date while the render goes on.
     session::Watcher watcher() const;
-    /// Of a render that was stopped in good order.
+    /// Writes the state of a render; warns where it cannot, and keeps the one before.
     void save(session::RenderState const& state) const;
     void remove() const;
     std::string const& path() const { return path_; }

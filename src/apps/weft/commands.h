@@ -13,7 +13,8 @@ enum ExitCode { kDone = 0, kFailed = 1, kInputError = 2, kInternalError = 3, kIn
 
 using Command = std::function<int()>;
 
-/// Each registers one subcommand; when it is the one that the user named, `chosen` is what to run.
+/// Each registers one subcommand. The one that the user has named sets `chosen` to what is to be
+/// run.
 void add_render_command(CLI::App& app, Command& chosen);
 void add_replay_command(CLI::App& app, Command& chosen);
 void add_merge_command(CLI::App& app, Command& chosen);

@@ -38,7 +38,7 @@ struct Report {
 /// Writes the page in one step. Throws IoError.
 void write_report(std::string const& path, Report const& report);
 
-/// compare_report.html, with @DATA@ where the pictures go.
+/// Returns the text of compare_report.html, which has @DATA@ in the place of the pictures.
 std::string_view report_page();
 
 } // namespace weft::apps

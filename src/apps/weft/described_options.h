@@ -14,7 +14,7 @@
 
 namespace weft::apps {
 
-/// "inputSpace" as "--input-space".
+/// Returns "--input-space" for the parameter "inputSpace".
 inline std::string option_name(std::string_view parameter) {
     std::string name = "--";
     for (char c : parameter) {
@@ -25,7 +25,7 @@ inline std::string option_name(std::string_view parameter) {
     return name;
 }
 
-/// What the user gave, by parameter.
+/// The texts that the user gave, by parameter.
 using OptionTexts = std::map<std::string, std::string>;
 
 namespace detail {
@@ -99,7 +99,7 @@ void add_described_options(CLI::App& command, OptionTexts& texts, std::string co
     object.describe(detail::OptionAdder{command, texts, heading});
 }
 
-/// Sets in `object` what the user gave. Throws InputError with the option's name.
+/// Sets the parameters of `object` that the user gave. Throws InputError with the option's name.
 template <class T>
 void apply_options(OptionTexts const& texts, T& object) {
     object.describe(detail::OptionApplier{texts});

@@ -12,12 +12,13 @@ inline void add_display_options(CLI::App& command, OptionTexts& texts) {
     add_described_options<scene::Display>(command, texts, "Display (PNG, JPEG and TIFF alone)");
 }
 
-/// The chain that the options ask for, beyond what a picture of a scene file says. Throws
-/// InputError, at the picture's <display> unless options replace a part of it.
+/// Returns the display chain of a picture: what the options do not say is as in `display`, which
+/// comes from a scene file. Throws InputError, at the picture's <display> unless options replace a
+/// part of it.
 post::DisplayChain display_chain(OptionTexts const& texts, scene::Display display = {},
                                  SourceLocation const& where = {});
 
-/// What the user should know about a chain, on stderr.
+/// Prints what the user should know about a chain to stderr.
 void print_warning(post::DisplayChain const& chain);
 
 } // namespace weft::apps

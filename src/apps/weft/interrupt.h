@@ -7,7 +7,7 @@
 
 namespace weft::apps {
 
-/// To be called first thing in main.
+/// Installs the handlers. To be called first in main.
 void handle_interrupts();
 
 /// While it lives, the first signal sets `flag` and nothing else. One at a time.

@@ -16,8 +16,8 @@ struct LiveArguments {
     std::string tev;   ///< "host:port"
 };
 
-/// The beauty so far in a file, each time a whole one. A file that cannot be written is no reason
-/// to stop a render, nor to lose its end: that is told once.
+/// Writes the beauty so far to a file, each time as a whole. Where the file cannot be written, a
+/// warning says so once, and the render goes on.
 class WatchedPicture {
   public:
     /// Throws InputError where `path` cannot be written.
@@ -33,17 +33,17 @@ class WatchedPicture {
     std::string told_; ///< the last failure
 };
 
-/// A picture in tev, or in any program that speaks the same.
+/// Shows the beauty so far in tev, or in any program that speaks its protocol.
 class TevClient {
   public:
-    /// `address` is "host:port", or a host alone, then at port 14158. Throws InputError where
-    /// nobody listens. `name` is what the picture is called there.
+    /// Connects to `address`: "host:port", or a host alone for port 14158. `name` is what the
+    /// picture is called there. Throws InputError where nobody listens.
     TevClient(std::string const& address, std::string name);
     TevClient(TevClient const&) = delete;
     TevClient& operator=(TevClient const&) = delete;
     ~TevClient();
 
-    /// Sends the beauty. A viewer that is gone is no reason to stop a render: it is told once.
+    /// Sends the beauty. Where the viewer is gone, a warning says so once, and the render goes on.
     void show(film::Film const& film);
     /// Shows every second.
     session::Watcher watcher();

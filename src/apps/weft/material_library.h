@@ -17,7 +17,7 @@ struct LibraryFile {
     std::string_view text;
 };
 
-/// All of them in the order of their names; cmake/material_library.cmake writes the function.
+/// Returns all files in the order of their names. cmake/material_library.cmake writes the function.
 std::span<LibraryFile const> material_library();
 
 struct LibraryMaterial {
@@ -27,11 +27,12 @@ struct LibraryMaterial {
     std::vector<std::string> patterns;   ///< parameters that are fed by nodes
 };
 
-/// Throws InputError where the file is not as described above.
+/// Reads a file of the library. Throws InputError where it is not as described above.
 LibraryMaterial read_library_material(LibraryFile const& file);
 
-/// How things feel to the touch, with values of `disney` to start from, and all materials of the
-/// library: for a terminal, or (`markdown`) as the page docs/materials.md.
+/// Returns a text about how things feel to the touch, with values of `disney` to start from, and
+/// about all materials of the library: for a terminal, or as the page docs/materials.md
+/// (`markdown`).
 std::string materials_text(bool markdown);
 
 } // namespace weft::apps

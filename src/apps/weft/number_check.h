@@ -8,7 +8,7 @@
 
 namespace weft::apps {
 
-/// For CLI::Option::check: a number from `least` to `most`.
+/// Returns a check for CLI::Option::check: a number from `least` to `most`.
 inline CLI::Validator number_within(double least,
                                     double most = std::numeric_limits<double>::infinity()) {
     auto const wanted = most < std::numeric_limits<double>::infinity()

@@ -15,11 +15,11 @@ struct PhaseTimes {
     double all = 0;                                     ///< seconds since the start
 };
 
-/// A table of the phases; under the render, one of the features that took any time, the longest
-/// first, in processor time of all threads together.
+/// Returns a table of the phases. Under the render stand the features that took any time, the
+/// longest first, in processor time of all threads together.
 std::string profile_text(PhaseTimes const& times, Profile const& profile);
 
-/// The same as the members of a JSON object, without its braces; all features.
+/// Returns the same, with all features, as the members of a JSON object without its braces.
 std::string profile_json(PhaseTimes const& times, Profile const& profile);
 
 } // namespace weft::apps

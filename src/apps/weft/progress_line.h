@@ -14,8 +14,8 @@ namespace weft::apps {
 
 enum class ProgressStyle { None, Lines, Terminal, Json };
 
-/// From the option's text; `auto` is one line that changes where stderr is a terminal, and else a
-/// plain line now and then.
+/// Returns the style that an option's text names. `auto` is a line that changes where stderr is a
+/// terminal, and plain lines now and then elsewhere.
 ProgressStyle progress_style(std::string const& option);
 
 /// Prints to stderr. Plain lines come after 2, 4, 8 and 16 seconds, and then every ten.
@@ -24,11 +24,11 @@ class ProgressLine {
     explicit ProgressLine(ProgressStyle style) : style_(style) {}
     /// Says to programs that a phase begins: read, commit, render, write.
     void phase(char const* name);
-    /// What a render that is done spent its time on; `print_profile` tells of all together.
+    /// Adds the profile of a render that is done to what `print_profile` tells.
     void add_profile(Profile const& profile) { profile_ += profile; }
-    /// How long each phase took, and where the render's time went, to stderr.
+    /// Prints how long each phase took, and where the render's time went.
     void print_profile() const;
-    /// Says to programs what was reached; the last line of a picture.
+    /// Says to programs what was reached, as the last line of a picture.
     void done(session::RenderResult const& result) const;
     void print(session::Progress const& progress);
     /// Leaves the terminal's line where the render stopped early.
@@ -51,17 +51,18 @@ class ProgressLine {
 void report_bad_samples(uint64_t count, std::span<session::BadSample const> first,
                         std::string const& seed);
 
-/// For people: size, samples, time, speed, memory, and what the render was after and reached.
+/// Says to people what was made and reached: size, samples, time, speed, memory, and why it ended.
 void print_summary(session::RenderResult const& result, session::Plan const& plan,
                    session::RenderOptions const& options);
 
-/// Bytes of memory that the process holds now, and at most so far; 0 where the system does not say.
+/// Return the bytes of memory that the process holds now, and the most that it has held; 0 where
+/// the system does not say.
 double memory_now();
 double memory_peak();
 
-/// "1:02:03", "2:05" or "12.3 s".
+/// Returns a time as "1:02:03", "2:05" or "12.3 s".
 std::string duration_text(double seconds);
-/// "12.3 M", "456 k", "78".
+/// Returns a number as "12.3 M", "456 k" or "78".
 std::string count_text(double count);
 
 } // namespace weft::apps

@@ -8,11 +8,11 @@
 
 namespace weft::apps {
 
-/// "WxH" or "P%" of the scene's size; (0, 0) for "". Throws InputError.
+/// Reads a size: "WxH" in pixels, or "P%" of the scene's; (0, 0) for "". Throws InputError.
 Vec2i parse_size(std::string const& text, scene::Scene const& scene);
 
-/// The stage that `job` is rendered on: every command that traces its paths makes this one. `isa`
-/// and `size` as the options of these names.
+/// Makes the stage that `job` is rendered on, the same for all commands. `isa` and `size` are the
+/// texts of the options of these names.
 std::unique_ptr<lights::Stage const> commit_stage(scene::RenderJob const& job,
                                                   std::string const& isa = "",
                                                   std::string const& size = "");

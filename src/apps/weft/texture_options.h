@@ -11,7 +11,7 @@ namespace weft::apps {
 
 struct TextureArguments {
     image::TextureCacheOptions cache;
-    /// Whether to tell on stderr how far a long conversion is.
+    /// A long conversion tells on stderr how far it is.
     bool show_conversion = true;
 };
 
