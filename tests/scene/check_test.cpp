@@ -252,8 +252,10 @@ TEST(Check, GroupsMayNotMultiplyBeyondMemory) {
     Scene s = valid_scene();
     InstanceId inner{0};
     for (int level = 0; level < 9; ++level) {
+        Group ten;
+        ten.instances.assign(10, inner);
         Instance outer;
-        outer.shape = add(s, ShapeKind{}, Group{.instances = std::vector(10, inner)});
+        outer.shape = add(s, ShapeKind{}, ten);
         inner = add(s, InstanceKind{}, outer);
     }
     s.contents.instances = {inner};
