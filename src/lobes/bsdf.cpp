@@ -165,7 +165,8 @@ BsdfSample Bsdf::sample(Vec3 const& wo, Vec3 const& u, bool by_part) const {
         result.pdf = lobe.pick * p.delta_probability;
         return result;
     }
-    LobeValue const v = by_part ? eval_part(wo, wi, p.kind) : eval(wo, wi);
+    // Of result.wi, as callers see it: a copy in registers may have been rounded otherwise.
+    LobeValue const v = by_part ? eval_part(wo, result.wi, p.kind) : eval(wo, result.wi);
     if (!(v.pdf > 0)) return {};
     result.weight = v.f / v.pdf;
     result.pdf = v.pdf;

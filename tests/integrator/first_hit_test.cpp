@@ -64,8 +64,19 @@ PixelRenderer renderer_of(TestScene const& scene) {
     return {*scene.stage, scene.job.integrator, scene.job.sampler, 7};
 }
 
+/// Three numbers that the path has told of its first surface.
+Vec3 told(film::SampleRecord const& record, film::Aov aov) {
+    film::Layout const& layout = record.layout();
+    float const* const from =
+        scene::info_of(aov).how == scene::Accumulation::Nearest
+            ? &(*record.nearest())[size_t(film::kNearestOffsets[size_t(aov)])]
+            : &record.values()[size_t(layout.offset(aov) - layout.first_recorded())];
+    return {from[0], from[1], from[2]};
+}
+
 TEST(FirstHit, IsThatOfPaths) {
-    film::Layout const layout(std::vector{film::Aov::albedo, film::Aov::depth}, {});
+    film::Layout const layout(
+        std::vector{film::Aov::albedo, film::Aov::normal, film::Aov::position}, {});
     film::SceneTags const tags;
     film::SampleRecord record(layout, tags);
     for (Case const& c : cases()) {
@@ -81,13 +92,16 @@ TEST(FirstHit, IsThatOfPaths) {
         int surfaces = 0;
         for_each_sample([&](Vec2i p, uint32_t s) {
             paths.sample(p, s, &record);
-            film::FirstSurface const* const met = record.surface();
-            surfaces += met != nullptr;
-            ASSERT_EQ(albedos.sample(p, s), met ? met->albedo : Color(0)) << c.name;
+            bool const met = record.nearest() != nullptr;
+            surfaces += met;
+            Vec3 const rgb = met ? told(record, film::Aov::albedo) : Vec3(0);
+            ASSERT_EQ(albedos.sample(p, s), Color(rgb.x, rgb.y, rgb.z)) << c.name;
             Color const n = normals.sample(p, s);
-            float const cosine = met ? dot(Vec3(n.r, n.g, n.b), met->n) : 0;
+            float const cosine =
+                met ? dot(Vec3(n.r, n.g, n.b), told(record, film::Aov::normal)) : 0;
             ASSERT_NEAR(std::abs(cosine), met ? 1 : 0, 1e-5f) << c.name;
-            ASSERT_NEAR(distances.sample(p, s).g, met ? length(met->p - eye) : 0, 1e-5f) << c.name;
+            float const way = met ? length(told(record, film::Aov::position) - eye) : 0;
+            ASSERT_NEAR(distances.sample(p, s).g, way, 1e-5f) << c.name;
         });
         EXPECT_GT(surfaces, 100) << c.name;
     }

@@ -229,7 +229,9 @@ TEST(Check, NothingContainsItself) {
     EXPECT_EQ(message(node), "texture 0: <texture type=\"absval\"> contains itself");
     EXPECT_EQ(message(with_material(Mix{.bsdfs = {{0}, {1}}})),
               "bsdf 1: <bsdf type=\"mix\"> contains itself");
-    Scene group = scene_with(ShapeKind{}, Group{.instances = {{0}}});
+    Group of_itself;
+    of_itself.instances.push_back({0});
+    Scene group = scene_with(ShapeKind{}, of_itself);
     group.instances[0].shape = {1};
     EXPECT_NE(message(group).find("contains itself"), std::string::npos);
 
