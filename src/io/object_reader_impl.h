@@ -230,7 +230,8 @@ Variant SceneBuilder::read_variant(XmlElement const& element) {
 
 template <class Kind>
 int32_t SceneBuilder::add(Kind, XmlElement const& e) {
-    using Object = std::remove_reference_t<decltype(scene::objects<Kind>(scene_))>::value_type;
+    using Object =
+        typename std::remove_reference_t<decltype(scene::objects<Kind>(scene_))>::value_type;
     auto const read = [&] {
         if constexpr (requires { Object::info; }) {
             if (!Object::info.type.empty()) expect_type(e, Object::info.type);
