@@ -7,7 +7,7 @@
 
 #include <array>
 #include <span>
-#include <variant>
+#include <type_traits>
 
 #include "base/feature.h"
 #include "integrator/path_state.h"
@@ -69,6 +69,12 @@ struct SurfaceVertex {
 
 class Vertex {
   public:
+    /// A vertex nowhere, to be moved before anything is asked of it. The room for a surface, some
+    /// ten kilobytes, stays uninitialised.
+    Vertex() {}
+    Vertex(Vertex const&) = delete;
+    Vertex& operator=(Vertex const&) = delete;
+
     lights::LitPoint at;     ///< for light sampling
     Vec3 wo{0, 0, 1};        ///< unit, to where the path comes from
     float t = 0;             ///< length of the path's last straight piece
@@ -82,13 +88,13 @@ class Vertex {
     void move_into_medium(Tracer const& t, PathState const& path, float distance);
 
     /// Returns the surface that the vertex is on; null in a medium.
-    SurfaceVertex const* surface() const { return std::get_if<SurfaceVertex>(&place_); }
+    SurfaceVertex const* surface() const { return on_surface_ ? &surface_ : nullptr; }
 
     /// Returns the part of the light from unit `wi` that goes to `wo`, and the density with which
     /// `sample` gives `wi`.
     lobes::LobeValue eval(Vec3 const& wi) const {
         SurfaceVertex const* const s = surface();
-        if (!s) return std::get_if<MediumVertex>(&place_)->eval(wo, wi);
+        if (!s) return medium_.eval(wo, wi);
         FeatureScope const scope(Feature::Bsdf);
         return s->bsdf().eval(wo, wi);
     }
@@ -109,7 +115,7 @@ class Vertex {
     lobes::BsdfSample sample(sampling::SampleStream const& stream, uint32_t step,
                              bool by_part) const {
         SurfaceVertex const* const s = surface();
-        if (!s) return std::get_if<MediumVertex>(&place_)->sample(wo, stream, step);
+        if (!s) return medium_.sample(wo, stream, step);
         FeatureScope const scope(Feature::Bsdf);
         return s->bsdf().sample(wo, stream.get3(sampling::Dimension::Bsdf, step), by_part);
     }
@@ -130,7 +136,12 @@ class Vertex {
     bool is_see_through() const { return surface() && surface()->object.is_see_through; }
 
   private:
-    std::variant<MediumVertex, SurfaceVertex> place_;
+    static_assert(std::is_trivially_destructible_v<SurfaceVertex>);
+    bool on_surface_ = false;
+    MediumVertex medium_; ///< where the vertex is not on a surface
+    union {               // neither a variant nor an optional: GCC sets all bytes of these to 0
+        SurfaceVertex surface_;
+    };
 };
 
 } // namespace weft::integrator
