@@ -96,6 +96,7 @@ int32_t SceneBuilder::add(scene::ImageKind, XmlElement const& e) {
     auto const output = read_struct<scene::ImageOutput>(e);
     int32_t const index = index_of(document_.pictures, &e);
     if (output.display) document_.displays[index] = displays_[size_t(output.display.index)];
+    if (!output.filename.path.empty()) document_.files[index] = output;
     return index;
 }
 
@@ -105,6 +106,11 @@ int32_t SceneBuilder::add(scene::DisplayKind, XmlElement const& e) {
 
 int32_t SceneBuilder::add(scene::IntegratorKind, XmlElement const& e) {
     integrator_element = &e;
+    return 0;
+}
+
+int32_t SceneBuilder::add(scene::PostprocessKind, XmlElement const& e) {
+    postprocess_element = &e;
     return 0;
 }
 
@@ -197,6 +203,17 @@ void SceneBuilder::load(scene::Display& display, XmlElement const& element) {
     if (display.ocio.path.empty()) return;
     display.ocio.path =
         existing_file(element.folder, display.ocio.path, location_of(element, "ocio"));
+}
+
+void SceneBuilder::load(scene::ImageOutput& picture, XmlElement const& element) {
+    if (picture.filename.path.empty()) {
+        if (picture.linear)
+            throw InputError(location_of(element, "linear"),
+                             "'linear' of <image> is for a picture that is read from a 'filename'");
+        return;
+    }
+    picture.filename.path =
+        existing_file(element.folder, picture.filename.path, location_of(element, "filename"));
 }
 
 void SceneBuilder::load(scene::IesLight& light, XmlElement const& element) {

@@ -28,8 +28,9 @@ struct Document {
     std::map<std::string, std::shared_ptr<scene::Photometry const>> photometries; ///< likewise
     std::shared_ptr<image::TextureCache> textures; ///< the images among them
     std::set<XmlElement const*> used;              ///< the elements that became objects
-    std::vector<XmlElement const*> pictures;   ///< the <image>s; an ImageId is an index into them
-    std::map<int32_t, PlacedDisplay> displays; ///< of the pictures that have one, by ImageId
+    std::vector<XmlElement const*> pictures;     ///< the <image>s; an ImageId is an index into them
+    std::map<int32_t, PlacedDisplay> displays;   ///< of the pictures that have one, by ImageId
+    std::map<int32_t, scene::ImageOutput> files; ///< the pictures that are files, by ImageId
     std::vector<std::string> warnings;
 };
 
@@ -66,9 +67,10 @@ class SceneBuilder {
     /// Reads an object that nothing refers to, for its mistakes.
     void check_definition(XmlElement const& element);
 
-    scene::Sampler sampler;                         ///< the last one read
-    XmlElement const* scene_element = nullptr;      ///< the last one referred to
-    XmlElement const* integrator_element = nullptr; ///< likewise
+    scene::Sampler sampler;                          ///< the last one read
+    XmlElement const* scene_element = nullptr;       ///< the last one referred to
+    XmlElement const* integrator_element = nullptr;  ///< likewise
+    XmlElement const* postprocess_element = nullptr; ///< likewise
 
   private:
     /// Reads an object and appends it to the scene's vector of its kind.
@@ -77,11 +79,12 @@ class SceneBuilder {
     int32_t add(scene::InstanceKind, XmlElement const& element);
     int32_t add(scene::VolumeKind, XmlElement const& element);
     int32_t add(scene::SamplerKindTag, XmlElement const& element);
-    /// Scenes, images and integrators are read by whoever asked for them.
+    /// Scenes, images, integrators and postprocesses are read by whoever asked for them.
     int32_t add(scene::SceneKind, XmlElement const& element);
     int32_t add(scene::ImageKind, XmlElement const& element);
     int32_t add(scene::DisplayKind, XmlElement const& element);
     int32_t add(scene::IntegratorKind, XmlElement const& element);
+    int32_t add(scene::PostprocessKind, XmlElement const& element);
 
     /// Reads the files that an object names. What it asks beside them is the business of
     /// scene/check.h.
@@ -93,6 +96,7 @@ class SceneBuilder {
     void load(scene::Group& group, XmlElement const& element);
     void load(scene::IesLight& light, XmlElement const& element);
     void load(scene::Display& display, XmlElement const& element);
+    void load(scene::ImageOutput& picture, XmlElement const& element);
 
     int32_t load_image(std::string const& path, scene::ColorSpace encoding, bool mip_levels,
                        SourceLocation const& where);

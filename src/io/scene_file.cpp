@@ -91,6 +91,7 @@ class JobReader {
         job.sampler = builder.sampler;
         job.scene = read_scene(*builder.scene_element);
         if (auto const image = job.target.image) {
+            expect_output(image.index);
             job.image_name = picture_name(*document_.pictures[size_t(image.index)]);
             made_.insert(image.index);
         }
@@ -104,7 +105,7 @@ class JobReader {
                                   element.where};
         auto const pictures = scene::pictures_of(job.postprocess);
         for (auto const& [name, id] : pictures.inputs) {
-            if (made_.contains(id.index)) continue;
+            if (made_.contains(id.index) || document_.files.contains(id.index)) continue;
             XmlElement const& image = *document_.pictures[size_t(id.index)];
             throw InputError(location_of(element, name),
                              in_quotes(name) + " of " + element_title(element) +
@@ -113,6 +114,7 @@ class JobReader {
                                  in_quotes(image.get("id")) + ", which none of them makes");
         }
         XmlElement const& image = *document_.pictures[size_t(pictures.output.index)];
+        expect_output(pictures.output.index);
         if (picture_name(image).empty())
             throw InputError(image.where, "<image> of " + element_title(element) +
                                               " expects an id: it names the file ID.exr");
@@ -120,17 +122,41 @@ class JobReader {
         return job;
     }
 
-    scene::RenderJob read_test(XmlElement const& element) {
+    /// Reads a test into the jobs or the postprocesses of the file.
+    void read_test(XmlElement const& element, SceneFile& file) {
         scene::Scene unused;
         SceneBuilder builder(document_, unused);
-        auto const test = builder.read_variant<std::variant<scene::ImageTest>>(element);
+        auto const test = std::get<scene::ImageTest>(
+            builder.read_variant<std::variant<scene::ImageTest>>(element));
         if (element.get("id").empty())
             throw InputError(element.where,
                              "<test> expects an id: it names the reference ID_ref.exr");
-        scene::RenderJob job = read_integrator(*builder.integrator_element);
-        job.test = std::get<scene::ImageTest>(test);
-        job.image_name = picture_name(element);
-        return job;
+        if (bool(builder.integrator_element) == bool(builder.postprocess_element))
+            throw InputError(element.where, element_title(element) +
+                                                " expects either an <integrator> or a "
+                                                "<postprocess>, found " +
+                                                (builder.integrator_element ? "both" : "none"));
+        if (builder.integrator_element) {
+            scene::RenderJob job = read_integrator(*builder.integrator_element);
+            job.test = test;
+            job.image_name = picture_name(element);
+            file.jobs.push_back(std::move(job));
+        } else {
+            scene::PostprocessJob job =
+                read_postprocess(*builder.postprocess_element, file.jobs.size());
+            job.test = test;
+            job.test_name = picture_name(element);
+            file.postprocesses.push_back(std::move(job));
+        }
+    }
+
+    /// A picture that is made must not be one that is there already.
+    void expect_output(int32_t picture) const {
+        if (!document_.files.contains(picture)) return;
+        XmlElement const& image = *document_.pictures[size_t(picture)];
+        throw InputError(location_of(image, "filename"),
+                         "'filename' is for pictures that a postprocess reads; a picture that is "
+                         "made is written as ID.exr");
     }
 
     /// The element's id, which becomes a file beside the scene and must not lead elsewhere.
@@ -209,24 +235,27 @@ void check_image_names(SceneFile& file) {
     for (scene::RenderJob const& job : file.jobs)
         if (!job.test) check({job.image_name, job.folder, {}, {}}, job.where, "integrator");
     for (scene::PostprocessJob const& job : file.postprocesses)
-        check(file.pictures[size_t(scene::pictures_of(job.postprocess).output.index)], job.where,
-              "postprocess");
+        if (!job.test)
+            check(file.pictures[size_t(scene::pictures_of(job.postprocess).output.index)],
+                  job.where, "postprocess");
 }
 
 SceneFile read_document(std::unique_ptr<XmlElement> root, std::vector<std::string> const& overrides,
                         std::shared_ptr<image::TextureCache> textures) {
     if (!textures) textures = std::make_shared<image::TextureCache>();
+    SceneFile file;
     for (std::string const& o : overrides) apply_override(*root, o);
-    Document document{std::move(root), {}, {}, {}, textures, {}, {}, {}, {}};
+    Document document{};
+    document.root = std::move(root);
+    document.textures = textures;
     index_ids(document);
     JobReader reader(document);
-    SceneFile file;
     std::vector<XmlElement const*> scenes;
     for (auto const& child : document.root->children) {
         if (child->tag == "integrator") {
             file.jobs.push_back(reader.read_integrator(*child));
         } else if (child->tag == "test") {
-            file.jobs.push_back(reader.read_test(*child));
+            reader.read_test(*child, file);
         } else if (child->tag == "scene") {
             scenes.push_back(child.get());
         } else if (child->tag == "postprocess") {
@@ -240,10 +269,10 @@ SceneFile read_document(std::unique_ptr<XmlElement> root, std::vector<std::strin
                                                "refer to it");
         }
     }
-    if (file.jobs.empty()) {
+    if (file.jobs.empty() && file.postprocesses.empty()) {
         if (scenes.empty())
-            throw InputError(document.root->where,
-                             "expected an <integrator>, <test> or <scene>, found none");
+            throw InputError(document.root->where, "expected an <integrator>, <test>, "
+                                                   "<postprocess> or <scene>, found none");
         if (scenes.size() > 1)
             throw InputError(scenes[1]->where,
                              "expected an <integrator> that refers to one of several scenes, "
@@ -255,8 +284,9 @@ SceneFile read_document(std::unique_ptr<XmlElement> root, std::vector<std::strin
     for (size_t i = 0; i < document.pictures.size(); ++i) {
         XmlElement const& picture = *document.pictures[i];
         PlacedDisplay const& shown = document.displays[int32_t(i)];
-        file.pictures.push_back(
-            {std::string(picture.get("id")), picture.folder, shown.display, shown.where});
+        auto const& given = document.files[int32_t(i)];
+        file.pictures.push_back({std::string(picture.get("id")), picture.folder, shown.display,
+                                 shown.where, given.filename.path, given.linear});
     }
     check_image_names(file);
     for (std::string& warning : textures->take_warnings())

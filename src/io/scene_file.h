@@ -21,7 +21,8 @@ struct SceneFile {
 
 /// Reads a scene file and everything that it names. Each override "PATH.PARAM=VALUE" sets a
 /// parameter of the objects that PATH (ids or tags, outermost first) leads to, as if the file
-/// said so. A file with a scene and no integrator gives one job: `path` with its defaults.
+/// said so. A file with a scene and neither an integrator nor a postprocess gives one job: `path`
+/// with its defaults.
 /// Images are read through `textures`, or through a cache of the default size where it is null.
 /// A glTF file (.gltf, .glb) is a scene as io/gltf.h says, and takes no overrides.
 /// Throws InputError.

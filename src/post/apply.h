@@ -24,5 +24,6 @@ struct Applied {
 
 Applied apply(scene::Denoising const& denoising, Inputs const& inputs);
 Applied apply(scene::Bloom const& bloom, Inputs const& inputs);
+Applied apply(scene::Tonemap const& tonemap, Inputs const& inputs);
 
 } // namespace weft::post

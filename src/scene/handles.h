@@ -62,6 +62,9 @@ struct DisplayKind {
 struct IntegratorKind {
     static constexpr char const* category = "integrator";
 };
+struct PostprocessKind {
+    static constexpr char const* category = "postprocess";
+};
 
 using TextureId = schema::Id<schema::TextureKind>;
 using CameraId = schema::Id<CameraKind>;
@@ -80,5 +83,6 @@ using SceneId = schema::Id<SceneKind>;
 using ImageId = schema::Id<ImageKind>;
 using DisplayId = schema::Id<DisplayKind>;
 using IntegratorId = schema::Id<IntegratorKind>;
+using PostprocessId = schema::Id<PostprocessKind>;
 
 } // namespace weft::scene

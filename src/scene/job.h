@@ -31,6 +31,8 @@ struct PostprocessJob {
     Postprocess postprocess;
     size_t jobs_before = 0; ///< the number of render jobs that come before it
     SourceLocation where;   ///< for messages
+    std::optional<ImageTest> test;
+    std::string test_name; ///< names the files of the test
 };
 
 /// What a picture is called, which folder its file goes to, and how it is shown.
@@ -39,6 +41,8 @@ struct PictureName {
     std::string folder;           ///< "" is the current one
     Display display;              ///< the default one where nothing else is said
     SourceLocation display_where; ///< empty where nothing is said about the display
+    std::string file = {};        ///< the path of a picture that is there already; "" where none is
+    bool linear = false;          ///< whether integers in that file are light
 };
 
 } // namespace weft::scene

@@ -20,6 +20,7 @@
 #include "base/match.h"
 #include "scene/bloom.h"
 #include "scene/handles.h"
+#include "scene/tonemap.h"
 #include "schema/describe.h"
 
 namespace weft::scene {
@@ -78,7 +79,7 @@ struct Denoising {
     }
 };
 
-using Postprocess = std::variant<Denoising, Bloom>;
+using Postprocess = std::variant<Denoising, Bloom, Tonemap>;
 
 namespace detail {
 

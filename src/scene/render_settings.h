@@ -278,14 +278,29 @@ inline Outputs const* outputs_of(Integrator const& integrator) {
     });
 }
 
-/// The picture that an integrator or a postprocess makes.
+/// The picture that an integrator or a postprocess makes, or one that a postprocess reads from a
+/// file.
 struct ImageOutput {
     static constexpr schema::TypeInfo info{
-        .category = "image", .type = "", .help = "A picture; its id names the file."};
+        .category = "image",
+        .type = "",
+        .help = "A picture; its id names the file. As what a postprocess reads it may be a file "
+                "that is there already.",
+        .example =
+            "<postprocess type=\"tonemap\">\n  <image name=\"input\" filename=\"sky.hdr\"/>\n"
+            "  <image id=\"mapped\"/>\n</postprocess>"};
+    FileName filename;
+    bool linear = false;
     DisplayId display;
 
     template <class F>
     constexpr void describe(F&& f) {
+        f("filename", filename,
+          {.help = "A file to read the picture from, relative to the scene file: only for what a "
+                   "postprocess reads."});
+        f("linear", linear,
+          {.help =
+               "A file of 8 or 16 bits holds light; without it, a gamma of 2.2 is taken back."});
         f("display", display,
           {.help = "How it is shown where it is written as PNG, JPEG or TIFF; by default clipped "
                    "and encoded as sRGB."});
@@ -296,18 +311,23 @@ struct ImageTest {
     static constexpr schema::TypeInfo info{
         .category = "test",
         .type = "image",
-        .help =
-            "Renders its integrator to ID_test.exr beside the scene and compares with ID_ref.exr."};
+        .help = "Renders its integrator, or does its postprocess, to ID_test.exr beside the scene "
+                "and compares with ID_ref.exr."};
     IntegratorId integrator;
+    PostprocessId postprocess;
     float mae = 0.1f;
     float me = 2e-4f;
+    bool allow_negative = true;
 
     template <class F>
     constexpr void describe(F&& f) {
-        f("integrator", integrator, {.required = true, .help = "What is rendered."});
+        f("integrator", integrator, {.help = "What is rendered."});
+        f("postprocess", postprocess, {.help = "What is done instead, to pictures made before."});
         f("mae", mae,
           {.min = 0, .help = "Largest mean absolute error over all pixels and channels."});
         f("me", me, {.min = 0, .help = "Largest absolute value of the mean signed error."});
+        f("allowNegative", allow_negative,
+          {.help = "Without it, a picture fails that has a negative value."});
     }
 };
 

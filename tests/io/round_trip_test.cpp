@@ -207,8 +207,14 @@ TEST(RoundTrip, EveryTypeOfEveryCategory) {
         return io::parse_scene(t, "s.xml", "").jobs.at(0).integrator;
     });
     round_trips<std::variant<scene::ImageOutput>>("", [&](std::string const& t) {
-        io::parse_scene("<integrator type='path'>" + scene + t + "</integrator>", "s.xml", "");
-        return std::variant<scene::ImageOutput>();
+        std::string named = t;
+        named.replace(0, 6,
+                      "<image name='input' filename='" WEFT_SOURCE_DIR "/tests/io/bad/tiny.png'");
+        auto const file = io::parse_scene(
+            "<postprocess type='tonemap'>" + named + "<image id='x'/></postprocess>", "s.xml", "");
+        scene::ImageOutput output;
+        for (scene::PictureName const& picture : file.pictures) output.linear |= picture.linear;
+        return std::variant<scene::ImageOutput>(output);
     });
     round_trips<std::variant<scene::Display>>("", [&](std::string const& t) {
         return std::variant<scene::Display>(io::parse_scene("<integrator type='path'>" + scene +

@@ -103,6 +103,17 @@ int run_file(RenderArguments& a, io::SceneFile const& file, ProgressLine& progre
             if (whole) image::check_writable(path);
     post::Pictures pictures;
     auto next = file.postprocesses.begin();
+    auto const process = [&](size_t jobs_done) {
+        for (; next != file.postprocesses.end() && next->jobs_before == jobs_done; ++next) {
+            read_picture_files(file, *next, pictures);
+            post::Picture result = post::run(*next, pictures);
+            int32_t const output = scene::pictures_of(next->postprocess).output.index;
+            write_picture(paths_of(*next), result, chains.at(output));
+            pictures[output] = std::move(result);
+        }
+        std::erase_if(pictures, [&](auto const& p) { return !is_read(p.first, next, file); });
+    };
+    if (whole) process(0);
     for (size_t i = 0; i < file.jobs.size(); ++i) {
         int32_t const image = file.jobs[i].target.image.index;
         JobResult made = render_job(
@@ -111,13 +122,7 @@ int run_file(RenderArguments& a, io::SceneFile const& file, ProgressLine& progre
         if (made.code != kDone) return made.code;
         if (!whole) continue;
         pictures[image] = std::move(made.picture);
-        for (; next != file.postprocesses.end() && next->jobs_before == i + 1; ++next) {
-            post::Picture result = post::run(*next, pictures);
-            int32_t const output = scene::pictures_of(next->postprocess).output.index;
-            write_picture(paths_of(*next), result, chains.at(output));
-            pictures[output] = std::move(result);
-        }
-        std::erase_if(pictures, [&](auto const& p) { return !is_read(p.first, next, file); });
+        process(i + 1);
     }
     return kDone;
 }
@@ -153,7 +158,7 @@ int run(RenderArguments& a) {
     a.textures.show_conversion = a.progress != "none" && a.progress != "json";
     io::SceneFile const file =
         io::read_scene_file(a.scene, a.overrides, make_texture_cache(a.textures));
-    for (std::string const& warning : file.warnings) fmt::print(stderr, "warning: {}\n", warning);
+    print_messages(file);
     int const code = run_file(a, file, progress);
     if (a.profile) progress.print_profile();
     return code;

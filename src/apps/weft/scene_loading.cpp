@@ -1,6 +1,7 @@
 #include "apps/weft/scene_loading.h"
 
 #include <cmath>
+#include <fmt/format.h>
 
 #include "integrator/pixel_renderer.h"
 #include "schema/text.h"
@@ -36,6 +37,24 @@ std::unique_ptr<lights::Stage const> commit_stage(scene::RenderJob const& job,
                                                   std::string const& isa, std::string const& size) {
     return lights::Stage::commit(job.scene, {isa, parse_size(size, *job.scene)},
                                  integrator::combines_strategies(job.integrator));
+}
+
+void print_messages(io::SceneFile const& file) {
+    for (std::string const& warning : file.warnings) fmt::print(stderr, "warning: {}\n", warning);
+}
+
+void read_picture_files(io::SceneFile const& file, scene::PostprocessJob const& job,
+                        post::Pictures& pictures) {
+    for (auto const& [name, id] : scene::pictures_of(job.postprocess).inputs) {
+        scene::PictureName const& picture = file.pictures[size_t(id.index)];
+        if (picture.file.empty() || pictures.contains(id.index)) continue;
+        image::Image image = image::read_image(picture.file);
+        // As lightwave reads them, and textures here.
+        if (image.is_srgb_encoded && !picture.linear)
+            for (float& v : image.pixels) v = std::pow(std::max(v, 0.f), 2.2f);
+        image.is_srgb_encoded = false;
+        pictures[id.index] = {std::move(image), {}};
+    }
 }
 
 } // namespace weft::apps

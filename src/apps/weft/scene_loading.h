@@ -5,6 +5,7 @@
 
 #include "io/scene_file.h"
 #include "lights/stage.h"
+#include "post/run.h"
 
 namespace weft::apps {
 
@@ -16,5 +17,12 @@ Vec2i parse_size(std::string const& text, scene::Scene const& scene);
 std::unique_ptr<lights::Stage const> commit_stage(scene::RenderJob const& job,
                                                   std::string const& isa = "",
                                                   std::string const& size = "");
+
+/// Tells on stderr what the reader has to say of a file.
+void print_messages(io::SceneFile const& file);
+
+/// Reads the files among the pictures that a postprocess reads into `pictures`. Throws InputError.
+void read_picture_files(io::SceneFile const& file, scene::PostprocessJob const& job,
+                        post::Pictures& pictures);
 
 } // namespace weft::apps

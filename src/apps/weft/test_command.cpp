@@ -1,9 +1,11 @@
 // weft test FILE...: runs lightwave's <test> files, and compares pictures of postprocesses with
 // their references, NAME_ref.exr, where there are such.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
+#include <optional>
 
 #include "apps/weft/commands.h"
 #include "apps/weft/scene_loading.h"
@@ -24,10 +26,30 @@ std::string path_of(std::string const& folder, std::string const& name, char con
     return (fs::path(folder) / (name + suffix)).string();
 }
 
-/// How many tests of a file came out in which way.
+/// How many tests came out in which way.
 struct Tally {
-    int passed = 0, failed = 0;
+    int passed = 0, failed = 0, broken = 0;
+
+    /// Runs a test. What keeps it from being run is told, and counts; the next one goes on.
+    template <class Run>
+    void attempt(Run const& run) {
+        try {
+            run();
+        } catch (InputError const& e) {
+            tell(e);
+        } catch (image::IoError const& e) {
+            tell(e);
+        }
+    }
+    void tell(std::exception const& e) {
+        fmt::print(stderr, "error: {}\n", e.what());
+        ++broken;
+    }
 };
+
+bool has_negative(image::Image const& picture) {
+    return std::any_of(picture.pixels.begin(), picture.pixels.end(), [](float v) { return v < 0; });
+}
 
 /// Writes the picture of a test, compares it and prints the verdict.
 void judge(std::string const& folder, std::string const& name, image::Image const& picture,
@@ -35,67 +57,94 @@ void judge(std::string const& folder, std::string const& name, image::Image cons
     image::Image const reference = image::read_image(path_of(folder, name, "_ref.exr"));
     image::write_exr(path_of(folder, name, "_test.exr"), picture);
     image::Difference const d = image::compare(picture, reference);
-    bool const passed =
-        d.mae <= double(limits.mae) && std::abs(d.me) <= double(limits.me) && d.non_finite == 0;
-    fmt::print("{}  {:<32} MAE {:.3e} (<= {:.1e})  ME {:+.3e} (<= {:.1e}){}  {:.1f} s\n",
+    bool const negative = !limits.allow_negative && has_negative(picture);
+    bool const passed = d.mae <= double(limits.mae) && std::abs(d.me) <= double(limits.me) &&
+                        d.non_finite == 0 && !negative;
+    fmt::print("{}  {:<32} MAE {:.3e} (<= {:.1e})  ME {:+.3e} (<= {:.1e}){}{}  {:.1f} s\n",
                passed ? "pass" : "FAIL", name, d.mae, limits.mae, d.me, limits.me,
-               d.non_finite ? fmt::format("  {} values not finite", d.non_finite) : "", seconds);
+               d.non_finite ? fmt::format("  {} values not finite", d.non_finite) : "",
+               negative ? "  negative values" : "", seconds);
     std::fflush(stdout);
     ++(passed ? tally.passed : tally.failed);
 }
 
+/// Throws where a test's picture cannot be written or its reference cannot be read.
+void check_files(std::string const& folder, std::string const& name) {
+    image::check_writable(path_of(folder, name, "_test.exr"));
+    image::read_image(path_of(folder, name, "_ref.exr"));
+}
+
 void run_test(scene::RenderJob const& job, session::RenderOptions const& options, Tally& tally) {
-    image::check_writable(path_of(job.folder, job.image_name, "_test.exr"));
-    image::read_image(path_of(job.folder, job.image_name, "_ref.exr"));
+    check_files(job.folder, job.image_name);
     auto const stage = commit_stage(job);
     session::RenderResult const result = session::render(*stage, job, options);
     judge(job.folder, job.image_name, result.image, *job.test, result.seconds, tally);
 }
 
-/// Whether the picture of a postprocess has a reference, and so is a test.
-bool is_tested(scene::PictureName const& picture) {
-    return fs::exists(path_of(picture.folder, picture.name, "_ref.exr"));
+/// A postprocess that is a test: of itself, or because there is a reference for its picture.
+struct PostprocessTest {
+    std::string folder, name;
+    scene::ImageTest limits;
+};
+
+std::optional<PostprocessTest> test_of(io::SceneFile const& file,
+                                       scene::PostprocessJob const& job) {
+    scene::PictureName const& picture =
+        file.pictures[size_t(scene::pictures_of(job.postprocess).output.index)];
+    if (job.test) return PostprocessTest{picture.folder, job.test_name, *job.test};
+    if (!fs::exists(path_of(picture.folder, picture.name, "_ref.exr"))) return {};
+    return PostprocessTest{picture.folder, picture.name, {}};
 }
 
-/// Runs the file's integrators and postprocesses, and judges the pictures that have a reference.
+/// Runs the file's integrators and postprocesses, and judges the pictures that are tests.
 void run_postprocess_tests(io::SceneFile const& file, session::RenderOptions const& options,
                            Tally& tally) {
     post::Pictures pictures;
     auto next = file.postprocesses.begin();
     double seconds = 0;
-    for (size_t i = 0; i < file.jobs.size(); ++i) {
-        scene::RenderJob const& job = file.jobs[i];
-        if (!job.test) {
+    auto const process = [&](scene::PostprocessJob const& job) {
+        auto const test = test_of(file, job);
+        if (test) check_files(test->folder, test->name);
+        auto const ids = scene::pictures_of(job.postprocess);
+        read_picture_files(file, job, pictures);
+        for (auto const& [name, id] : ids.inputs)
+            if (!pictures.contains(id.index))
+                throw InputError(job.where,
+                                 "'" + std::string(name) + "' is a picture that could not be made");
+        pictures[ids.output.index] = post::run(job, pictures);
+        if (test)
+            judge(test->folder, test->name, pictures[ids.output.index].image, test->limits, seconds,
+                  tally);
+    };
+    for (size_t i = 0; i <= file.jobs.size(); ++i) {
+        for (; next != file.postprocesses.end() && next->jobs_before == i; ++next)
+            tally.attempt([&] { process(*next); });
+        if (i == file.jobs.size() || file.jobs[i].test) continue;
+        tally.attempt([&] {
+            scene::RenderJob const& job = file.jobs[i];
             auto const stage = commit_stage(job);
             session::RenderResult result = session::render(*stage, job, options);
             seconds += result.seconds;
             pictures[job.target.image.index].image = std::move(result.image);
-        }
-        for (; next != file.postprocesses.end() && next->jobs_before == i + 1; ++next) {
-            int32_t const output = scene::pictures_of(next->postprocess).output.index;
-            scene::PictureName const& name = file.pictures[size_t(output)];
-            pictures[output] = post::run(*next, pictures);
-            if (is_tested(name))
-                judge(name.folder, name.name, pictures[output].image, {}, seconds, tally);
-        }
+        });
     }
 }
 
-/// Throws InputError where the file has no test, too.
+/// Throws InputError where the file has no test.
 void run_file(io::SceneFile const& file, std::string const& name,
               session::RenderOptions const& options, Tally& tally) {
     int tests = 0;
     for (scene::RenderJob const& job : file.jobs)
         if (job.test) {
             ++tests;
-            run_test(job, options, tally);
+            tally.attempt([&] { run_test(job, options, tally); });
         }
     std::string references;
     bool tested = false;
     for (scene::PostprocessJob const& job : file.postprocesses) {
         scene::PictureName const& picture =
             file.pictures[size_t(scene::pictures_of(job.postprocess).output.index)];
-        tested |= is_tested(picture);
+        tested |= test_of(file, job).has_value();
         references += " or " + path_of(picture.folder, picture.name, "_ref.exr");
     }
     if (tested) run_postprocess_tests(file, options, tally);
@@ -107,23 +156,14 @@ void run_file(io::SceneFile const& file, std::string const& name,
 int run(std::vector<std::string> const& files, session::RenderOptions const& options,
         TextureArguments const& textures) {
     Tally tally;
-    int broken = 0;
-    auto const cannot_run = [&](std::exception const& e) {
-        fmt::print(stderr, "error: {}\n", e.what());
-        ++broken;
-    };
-    for (std::string const& name : files) {
-        try {
-            run_file(io::read_scene_file(name, {}, make_texture_cache(textures)), name, options,
-                     tally);
-        } catch (InputError const& e) {
-            cannot_run(e);
-        } catch (image::IoError const& e) {
-            cannot_run(e);
-        }
-    }
-    fmt::print("{} passed, {} failed\n", tally.passed, tally.failed + broken);
-    return broken ? kInputError : tally.failed ? kFailed : kDone;
+    for (std::string const& name : files)
+        tally.attempt([&] {
+            io::SceneFile const file = io::read_scene_file(name, {}, make_texture_cache(textures));
+            print_messages(file);
+            run_file(file, name, options, tally);
+        });
+    fmt::print("{} passed, {} failed\n", tally.passed, tally.failed + tally.broken);
+    return tally.broken ? kInputError : tally.failed ? kFailed : kDone;
 }
 
 } // namespace
