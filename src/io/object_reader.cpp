@@ -19,12 +19,6 @@ bool contains(std::span<std::string const> names, std::string_view name) {
 
 } // namespace
 
-bool is_property_tag(std::string_view tag) {
-    static std::array<std::string, 6> const tags{"integer", "float", "string",
-                                                 "boolean", "color", "vector"};
-    return contains(tags, tag);
-}
-
 std::span<std::string const> definition_tags() {
     static std::array<std::string, 13> const tags{
         "bsdf",   "texture", "shape", "instance",  "light", "emission", "volume",
@@ -33,15 +27,6 @@ std::span<std::string const> definition_tags() {
 }
 
 bool is_definition_tag(std::string_view tag) { return contains(definition_tags(), tag); }
-
-std::string element_title(XmlElement const& element) {
-    std::string title = "<" + element.tag;
-    if (XmlAttribute const* type = element.find("type")) {
-        std::string const text = in_quotes(type->value);
-        title += " type=\"" + text.substr(1, text.size() - 2) + "\"";
-    }
-    return title + ">";
-}
 
 SourceLocation const& location_of(XmlElement const& element, std::string_view name) {
     if (name.empty()) return element.where;

@@ -15,14 +15,13 @@ namespace weft::io {
 
 class SceneBuilder;
 
-/// Whether the tag is one of integer, float, string, boolean, color, vector.
-bool is_property_tag(std::string_view tag);
+using schema::element_title;
+using schema::is_property_tag;
+
 /// The tags of objects that may stand beside the parameters of a scene or test, and at the root
 /// of a file, for use by reference.
 std::span<std::string const> definition_tags();
 bool is_definition_tag(std::string_view tag);
-/// "<camera type="thinlens">", for messages.
-std::string element_title(XmlElement const& element);
 /// Where the parameter `name` of an object stands; the object's own place where it is not given.
 SourceLocation const& location_of(XmlElement const& element, std::string_view name);
 /// Whether the element has an attribute of this name, or a child that is called so.

@@ -1,7 +1,9 @@
 #include "io/xml_document.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
+#include <map>
 #include <pugixml.hpp>
 #include <set>
 
@@ -10,17 +12,6 @@
 namespace weft::io {
 
 namespace fs = std::filesystem;
-
-XmlAttribute const* XmlElement::find(std::string_view name) const {
-    for (XmlAttribute const& a : attributes)
-        if (a.name == name) return &a;
-    return nullptr;
-}
-
-std::string_view XmlElement::get(std::string_view name) const {
-    XmlAttribute const* a = find(name);
-    return a ? std::string_view(a->value) : std::string_view();
-}
 
 namespace {
 
@@ -33,16 +24,14 @@ struct Includes {
     std::vector<fs::path> open; ///< the chain of files being read, to find cycles
     int files = 0;
     size_t bytes = 0;
+    std::map<std::string, std::string, std::less<>> defaults; ///< what `${name}` stands for
+    bool as_written = false;
 };
 
 fs::path canonical(std::string const& path) {
     std::error_code error;
     fs::path const result = fs::weakly_canonical(path, error);
     return error ? fs::path(path) : result;
-}
-
-std::string_view without_byte_order_mark(std::string_view text) {
-    return text.starts_with("\xef\xbb\xbf") ? text.substr(3) : text;
 }
 
 /// One file on its way into the tree.
@@ -112,14 +101,89 @@ class Builder {
             from = find_name(name, from);
             if (!names.insert(name).second)
                 throw InputError(location(from), in_quotes(name) + " is given twice");
-            element->attributes.push_back({std::string(name), a.value(), location(from)});
+            element->attributes.push_back(
+                {std::string(name), resolved(a.value(), from), location(from)});
             from += name.size();
         }
-        add_children(node, *element, depth + 1);
-        if (element->tag == "include")
-            include(*element, parent, depth);
-        else
+        bool const wraps = element->tag == "lightwave" && !includes_.as_written;
+        add_children(node, wraps ? parent : *element, depth + 1);
+        if (includes_.as_written) {
+            element->text = range_of(*element, offset > 0 ? offset - 1 : 0);
             parent.children.push_back(std::move(element));
+        } else if (element->tag == "include") {
+            include(*element, parent, depth);
+        } else if (element->tag == "default") {
+            add_default(*element);
+        } else if (!wraps) {
+            parent.children.push_back(std::move(element));
+        }
+    }
+
+    /// The text with what its `${name}` stand for.
+    std::string resolved(std::string text, size_t offset) const {
+        if (includes_.as_written) return text;
+        for (size_t at = 0; (at = text.find("${", at)) != std::string::npos;) {
+            size_t const end = text.find('}', at);
+            std::string const name =
+                text.substr(at + 2, end == std::string::npos ? end : end - at - 2);
+            auto const found = includes_.defaults.find(name);
+            if (end == std::string::npos || found == includes_.defaults.end())
+                throw InputError(location(offset), "nothing says what " +
+                                                       in_quotes("${" + name + "}") +
+                                                       " stands for: expected <default name=\"" +
+                                                       "...\" value=\"...\"/> before it");
+            text.replace(at, end + 1 - at, found->second);
+            at += found->second.size();
+        }
+        return text;
+    }
+
+    void add_default(XmlElement const& element) {
+        for (char const* name : {"name", "value"})
+            if (!element.find(name))
+                throw InputError(element.where, "<default> expects name=\"...\" and value=\"...\"");
+        for (XmlAttribute const& a : element.attributes)
+            if (a.name != "name" && a.name != "value")
+                throw InputError(a.where, "unknown parameter " + in_quotes(a.name) +
+                                              " of <default>; known: name, value");
+        includes_.defaults.emplace(element.get("name"), element.get("value"));
+    }
+
+    /// Where an element stands whose '<' is at `begin`, and whose children know where they do.
+    schema::TextRange range_of(XmlElement const& element, size_t begin) const {
+        schema::TextRange range{begin, behind_tag(begin), 0, 0};
+        if (range.inside >= 2 && text_[range.inside - 2] == '/') {
+            range.closing = range.end = range.inside;
+            return range;
+        }
+        size_t at = element.children.empty() ? range.inside : element.children.back()->text.end;
+        while ((at = std::min(text_.find('<', at), text_.size())) < text_.size() &&
+               !text_.substr(at).starts_with("</"))
+            at = behind_markup(at);
+        range.closing = at;
+        range.end = behind_tag(at);
+        return range;
+    }
+    /// Behind the '>' of the tag that begins at `at`; what stands in quotes does not end it.
+    size_t behind_tag(size_t at) const {
+        char quote = 0;
+        for (; at < text_.size(); ++at) {
+            char const c = text_[at];
+            if (quote ? c == quote : c == '"' || c == '\'') quote = quote ? 0 : c;
+            if (!quote && c == '>') return at + 1;
+        }
+        return at;
+    }
+    /// Behind a comment, a processing instruction or whatever else begins at `at`.
+    size_t behind_markup(size_t at) const {
+        static constexpr std::array<std::array<std::string_view, 2>, 3> kinds{
+            {{"<!--", "-->"}, {"<![CDATA[", "]]>"}, {"<?", "?>"}}};
+        for (auto const& [opening, closing] : kinds)
+            if (text_.substr(at).starts_with(opening)) {
+                size_t const end = text_.find(closing, at + opening.size());
+                return end == std::string_view::npos ? text_.size() : end + closing.size();
+            }
+        return at + 1;
     }
 
     /// The offset at which an attribute's name stands: the parser keeps none, but attributes
@@ -174,9 +238,25 @@ class Builder {
 
 } // namespace
 
+std::string_view without_byte_order_mark(std::string_view text) {
+    return text.starts_with("\xef\xbb\xbf") ? text.substr(3) : text;
+}
+
+std::unique_ptr<XmlElement> parse_xml_as_written(std::string_view text, std::string const& name) {
+    Includes includes;
+    includes.as_written = true;
+    auto root = std::make_unique<XmlElement>();
+    root->where = {name, 1, 1};
+    size_t const size = without_byte_order_mark(text).size();
+    root->text = {0, 0, size, size};
+    Builder(text, name, fs::path(name).parent_path().string(), includes).build_into(*root, 1);
+    return root;
+}
+
 std::unique_ptr<XmlElement> parse_xml(std::string_view text, std::string const& name,
                                       std::string const& folder) {
-    Includes includes{.open = {canonical(name)}};
+    Includes includes;
+    includes.open = {canonical(name)};
     auto root = std::make_unique<XmlElement>();
     root->where = {name, 1, 1};
     root->folder = folder;

@@ -10,38 +10,33 @@
 #include <string_view>
 #include <vector>
 
-#include "base/error.h"
+#include "schema/element.h"
 
 namespace weft::io {
 
-struct XmlAttribute {
-    std::string name, value;
-    SourceLocation where; ///< of the name
-};
-
-struct XmlElement {
-    std::string tag;
-    std::vector<XmlAttribute> attributes;
-    std::vector<std::unique_ptr<XmlElement>> children;
-    SourceLocation where; ///< of the '<'
-    std::string folder;   ///< of the file: what its relative paths start from
-
-    XmlAttribute const* find(std::string_view name) const;
-    /// The attribute's value, or "" where there is none.
-    std::string_view get(std::string_view name) const;
-};
+using XmlAttribute = schema::Attribute;
+using XmlElement = schema::Element;
 
 /// Tags nested deeper than this are an accident or an attack, and would exhaust the stack.
 inline constexpr int kMaxNesting = 200;
 
 /// Reads the file at `path`; the root element has the tag "" and the file's objects as children.
+/// Those of a <lightwave> tag stand for themselves, and `${name}` in a value for what <default
+/// name="..." value="..."/> says before it, the first that names it.
 /// Throws InputError: missing file, malformed XML, text between tags, an attribute given twice,
-/// nesting beyond kMaxNesting, an include that is missing or cyclic.
+/// nesting beyond kMaxNesting, an include that is missing or cyclic, an unknown name in `${}`.
 std::unique_ptr<XmlElement> read_xml(std::string const& path);
 
 /// As read_xml, for text in memory (includes are looked for in `folder`).
 std::unique_ptr<XmlElement> parse_xml(std::string_view text, std::string const& name,
                                       std::string const& folder);
+
+/// As parse_xml, for those who write the text again: elements know where they stand in it (counted
+/// without a byte order mark), and <include>, <lightwave>, <default> and `${name}` stay what they
+/// are.
+std::unique_ptr<XmlElement> parse_xml_as_written(std::string_view text, std::string const& name);
+
+std::string_view without_byte_order_mark(std::string_view text);
 
 /// The path of the regular file `file`, relative to `folder`. Throws InputError at `where` for a
 /// file that is missing, a folder, or a device.

@@ -15,9 +15,11 @@
 
 #include <array>
 #include <limits>
+#include <span>
 #include <string_view>
 #include <utility>
 
+#include "schema/alias.h"
 #include "schema/values.h"
 
 namespace weft::schema {
@@ -27,8 +29,9 @@ struct TypeInfo {
     std::string_view category; ///< the tag, "light"
     std::string_view type; ///< the value of the type attribute, "point"; "" where there is one type
     std::string_view help; ///< one or two sentences
-    std::string_view example = {};      ///< a snippet of a scene file
-    ValueType output = ValueType::none; ///< what a node gives
+    std::string_view example = {};            ///< a snippet of a scene file
+    ValueType output = ValueType::none;       ///< what a node gives
+    std::span<Spelling const> spellings = {}; ///< of other dialects, the first that applies first
 };
 
 /// What a parameter means beyond its name, type and default.
@@ -39,6 +42,7 @@ struct Attr {
     double soft_max = std::numeric_limits<double>::infinity(); ///< where a slider ends
     bool required = false;
     std::string_view help = {};
+    Aliases aliases = {}; ///< what other dialects call it
 };
 
 namespace detail {

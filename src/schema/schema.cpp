@@ -41,7 +41,43 @@ std::string output_text(TypeInfo const& info, std::string_view before, std::stri
     return fmt::format("{}{}{}", before, type_name(info.output), after);
 }
 
+struct DialectRow {
+    std::string spelling, today;
+};
+
+/// What other dialects call the type and its parameters, and what that is here.
+std::vector<DialectRow> dialect_rows(Schema const& schema) {
+    std::vector<DialectRow> rows;
+    for (Spelling const& s : schema.info.spellings)
+        rows.push_back({spelling_text(s), std::string(s.today)});
+    for (Field const& field : schema.fields)
+        for (Alias const& alias : field.attr.aliases)
+            rows.push_back({std::string(alias.name), alias_text(alias, field.name)});
+    return rows;
+}
+
+/// Tags as Markdown's code, which would take them for HTML.
+std::string tags_as_code(std::string_view text) {
+    std::string result;
+    for (char const c : text) result += c == '<' ? "`<" : c == '>' ? ">`" : std::string(1, c);
+    return result;
+}
+
+constexpr std::string_view kDialects = "Spellings of other dialects, which `weft convert` rewrites";
+
 } // namespace
+
+std::string spelling_text(Spelling const& s) {
+    std::string text;
+    if (!s.type.empty()) text = fmt::format("type=\"{}\"", s.type);
+    if (!s.parameter.empty()) text += (text.empty() ? "" : " ") + std::string(s.parameter);
+    return text;
+}
+
+std::string alias_text(Alias const& alias, std::string_view today) {
+    return fmt::format("is called `{}` today{}{}", today, alias.note.empty() ? "" : ": ",
+                       alias.note);
+}
 
 std::string help_text(Schema const& schema) {
     std::string text = fmt::format("{}\n{}\n{}", title(schema.info), schema.info.help,
@@ -55,6 +91,10 @@ std::string help_text(Schema const& schema) {
     }
     if (!schema.info.example.empty())
         text += fmt::format("\nExample:\n  {}\n", schema.info.example);
+    auto const rows = dialect_rows(schema);
+    if (!rows.empty()) text += fmt::format("\n{}:\n", kDialects);
+    for (DialectRow const& row : rows)
+        text += fmt::format("  {:<16} {}\n", row.spelling, row.today);
     return text;
 }
 
@@ -76,6 +116,11 @@ std::string reference_page(std::string const& category, std::vector<Schema> cons
         }
         if (!schema.info.example.empty())
             text += fmt::format("\n```xml\n{}\n```\n", schema.info.example);
+        auto const rows = dialect_rows(schema);
+        if (!rows.empty())
+            text += fmt::format("\n{}:\n\n| spelling | today |\n|---|---|\n", kDialects);
+        for (DialectRow const& row : rows)
+            text += fmt::format("| `{}` | {} |\n", row.spelling, tags_as_code(row.today));
     }
     return text;
 }
@@ -97,6 +142,7 @@ std::string to_json(std::vector<Schema> const& schemas) {
             if (!f.attr.unit.empty()) p["unit"] = f.attr.unit;
             p["required"] = f.attr.required;
             p["help"] = f.attr.help;
+            for (Alias const& alias : f.attr.aliases) p["aliases"].push_back(alias.name);
             parameters.push_back(std::move(p));
         }
         nlohmann::ordered_json type{{"category", schema.info.category},

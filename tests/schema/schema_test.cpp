@@ -29,11 +29,18 @@ struct Base {
     }
 };
 
+constexpr std::array kCakes{
+    schema::Spelling{.type = "gateau", .today = "is <cake type=\"plain\"> today"},
+    schema::Spelling{.parameter = "candles", .today = "is for birthdays"},
+    schema::Spelling{.type = "torte", .parameter = "layers", .today = "is a pile of cakes"},
+};
+
 struct Cake {
     static constexpr schema::TypeInfo info{.category = "cake",
                                            .type = "plain",
                                            .help = "To eat.",
-                                           .example = "<cake type=\"plain\"/>"};
+                                           .example = "<cake type=\"plain\"/>",
+                                           .spellings = kCakes};
     Base base;
     float size = 0.1f;
     Color color{0.5f};
@@ -49,7 +56,12 @@ struct Cake {
     template <class F>
     constexpr void describe(F&& f) {
         f.group(base);
-        f("size", size, {.unit = "scene", .min = 0, .soft_max = 2, .help = "Radius."});
+        f("size", size,
+          {.unit = "scene",
+           .min = 0,
+           .soft_max = 2,
+           .help = "Radius.",
+           .aliases = {"radius", schema::Alias("width", "that is twice as much")}});
         f("color", color, {.max = 1, .help = "Of the \"icing\"."});
         f("taste", taste, {.help = "Which."});
         f("sugar", sugar, {.help = "How much."});
@@ -142,7 +154,11 @@ TEST(Schema, HelpSaysAll) {
           "color            color, <= 1, default 0.5\n", "sweet | sour, default sour\n",
           "fruit            <fruit>, default required\n",
           "more             any number of <fruit>, default none\n",
-          "Example:\n  <cake type=\"plain\"/>\n"})
+          "Example:\n  <cake type=\"plain\"/>\n", "Spellings of other dialects",
+          "  type=\"gateau\"    is <cake type=\"plain\"> today\n",
+          "  candles          is for birthdays\n", "  type=\"torte\" layers is a pile of cakes\n",
+          "  radius           is called `size` today\n",
+          "  width            is called `size` today: that is twice as much\n"})
         EXPECT_NE(text.find(part), std::string::npos) << part << "\nis not in\n" << text;
 }
 
@@ -152,13 +168,18 @@ TEST(Schema, ReferencePageHasOneRowPerParameter) {
         << page;
     EXPECT_NE(page.find("| `taste` | `sweet, sour` | sour |"), std::string::npos) << page;
     std::istringstream lines(page);
-    int rows = 0;
+    int rows = 0, other_spellings = 0;
     for (std::string line; std::getline(lines, line);) {
         if (!line.starts_with("| `")) continue;
-        EXPECT_EQ(std::count(line.begin(), line.end(), '|'), 7) << line;
-        ++rows;
+        bool const of_dialect = page.find("| spelling |") < page.find(line);
+        EXPECT_EQ(std::count(line.begin(), line.end(), '|'), of_dialect ? 3 : 7) << line;
+        ++(of_dialect ? other_spellings : rows);
     }
     EXPECT_EQ(rows, 11);
+    EXPECT_EQ(other_spellings, 5);
+    EXPECT_NE(page.find("| `type=\"gateau\"` | is `<cake type=\"plain\">` today |\n"),
+              std::string::npos)
+        << page;
 }
 
 TEST(Schema, JsonReadsBack) {
@@ -174,6 +195,8 @@ TEST(Schema, JsonReadsBack) {
     EXPECT_FALSE(parameters[1].contains("max")) << "no bound, no number";
     EXPECT_EQ(parameters[1].at("softMax"), 2);
     EXPECT_EQ(parameters[1].at("unit"), "scene");
+    EXPECT_EQ(parameters[1].at("aliases"), (nlohmann::json{"radius", "width"}));
+    EXPECT_FALSE(parameters[2].contains("aliases"));
     EXPECT_EQ(parameters[2].at("help"), "Of the \"icing\".");
     EXPECT_EQ(parameters[3].at("choices"), (nlohmann::json{"sweet", "sour"}));
     EXPECT_EQ(parameters[5].at("required"), true);
