@@ -34,7 +34,7 @@ PathSettings settings_of(scene::PathIntegrator const& i) {
 }
 template <class Type>
 PathSettings settings_of(scene::NamedPathIntegrator<Type> const& i) {
-    return {Type::strategy, depth_limit(i.depth), PathSettings().roulette_depth};
+    return {i.strategy, depth_limit(i.depth), PathSettings().roulette_depth};
 }
 PathSettings settings_of(scene::DirectIntegrator const&) { return {scene::Strategy::nee, 2, 2}; }
 

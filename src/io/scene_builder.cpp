@@ -74,6 +74,15 @@ int32_t SceneBuilder::add(scene::VolumeKind kind, XmlElement const& e) {
     return add<scene::VolumeKind>(kind, e);
 }
 
+/// Teams of lightwave have the grid of densities as a shape.
+int32_t SceneBuilder::add(scene::ShapeKind kind, XmlElement const& e) {
+    if (e.get("type") == "grid")
+        throw InputError(e.where,
+                         "<shape type=\"grid\"> is a medium whose density varies, which is "
+                         "not supported yet; expected a closed shape with a `volume` bsdf");
+    return add<scene::ShapeKind>(kind, e);
+}
+
 /// A bare shape stands for an instance of it.
 int32_t SceneBuilder::add(scene::InstanceKind kind, XmlElement const& e) {
     if (e.tag != "shape") return add<scene::InstanceKind>(kind, e);

@@ -78,6 +78,7 @@ class SceneBuilder {
     int32_t add(Kind, XmlElement const& element);
     int32_t add(scene::InstanceKind, XmlElement const& element);
     int32_t add(scene::VolumeKind, XmlElement const& element);
+    int32_t add(scene::ShapeKind, XmlElement const& element);
     int32_t add(scene::SamplerKindTag, XmlElement const& element);
     /// Scenes, images, integrators and postprocesses are read by whoever asked for them.
     int32_t add(scene::SceneKind, XmlElement const& element);

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "io/gltf.h"
+#include "io/modernise.h"
 #include "io/object_reader_impl.h"
 
 namespace weft::io {
@@ -244,7 +245,10 @@ SceneFile read_document(std::unique_ptr<XmlElement> root, std::vector<std::strin
                         std::shared_ptr<image::TextureCache> textures) {
     if (!textures) textures = std::make_shared<image::TextureCache>();
     SceneFile file;
+    file.notes = modernise(*root);
     for (std::string const& o : overrides) apply_override(*root, o);
+    if (!overrides.empty())
+        for (std::string& note : modernise(*root)) file.notes.push_back(std::move(note));
     Document document{};
     document.root = std::move(root);
     document.textures = textures;

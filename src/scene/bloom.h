@@ -4,6 +4,7 @@
 #include <array>
 #include <string_view>
 
+#include "scene/dialects.h"
 #include "scene/handles.h"
 #include "schema/describe.h"
 
@@ -12,6 +13,25 @@ namespace weft::scene {
 enum class BloomKind { glare, threshold };
 constexpr auto choices(BloomKind) { return std::array<std::string_view, 2>{"glare", "threshold"}; }
 
+namespace dialects {
+inline constexpr std::string_view kBoxesToday =
+    "says how widely boxes blur what is bright; today a Gaussian does, of the `sigma` that they "
+    "amount to. The team that says so adds whole pixels that are brighter than the threshold, not "
+    "what exceeds it, and a second, narrow bloom";
+inline constexpr std::array kBlooms{
+    Spelling{.type = "image_bloom",
+             .today = "is <postprocess type=\"bloom\"> today, with `intensity` for `strength`; it "
+                      "adds what exceeds the threshold, without a square and an upper bound",
+             .rewrite = bloom_by_gaussian},
+    Spelling{.parameter = "kernelSize", .today = kBoxesToday, .rewrite = bloom_by_boxes},
+    Spelling{.parameter = "iterations", .today = kBoxesToday, .rewrite = bloom_by_boxes},
+    Spelling{.parameter = "softThreshold",
+             .today = "has no effect: the threshold has no soft edge"},
+    Spelling{.parameter = "amountSmall",
+             .today = "has no effect: there is one bloom, not a second, narrow one"},
+};
+} // namespace dialects
+
 struct Bloom {
     static constexpr schema::TypeInfo info{
         .category = "postprocess",
@@ -19,7 +39,8 @@ struct Bloom {
         .help = "Light that the eye or a lens scatters around what is bright, before any tone "
                 "mapping.",
         .example = "<postprocess type=\"bloom\" strength=\"0.1\" fov=\"40\">\n  <ref "
-                   "name=\"input\" id=\"picture\"/>\n  <image id=\"bloomed\"/>\n</postprocess>"};
+                   "name=\"input\" id=\"picture\"/>\n  <image id=\"bloomed\"/>\n</postprocess>",
+        .spellings = dialects::kBlooms};
     ImageId input, image;
     BloomKind kind = BloomKind::glare;
     float strength = 0.1f;
@@ -66,7 +87,10 @@ struct Bloom {
            .soft_max = 300,
            .help = "threshold: where the Gaussian ends; 0 is four standard deviations."});
         f("intensity", intensity,
-          {.min = 0, .soft_max = 4, .help = "threshold: scales what is added."});
+          {.min = 0,
+           .soft_max = 4,
+           .help = "threshold: scales what is added.",
+           .aliases = {"amount"}});
     }
 };
 

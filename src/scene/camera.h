@@ -6,6 +6,7 @@
 #include <string_view>
 #include <variant>
 
+#include "scene/dialects.h"
 #include "scene/handles.h"
 #include "schema/describe.h"
 
@@ -55,6 +56,21 @@ struct Perspective {
     }
 };
 
+/// What teams of lightwave say of lenses beside other names of the parameters.
+namespace dialects {
+inline constexpr std::string_view kEvenAperture =
+    "has no effect: light passes the whole aperture alike, or as the image `bokeh` says";
+inline constexpr std::array kLenses{
+    Spelling{.type = "thin_lens", .today = "is <camera type=\"thinlens\"> today"},
+    Spelling{.type = "thinLens", .today = "is <camera type=\"thinlens\"> today"},
+    Spelling{.parameter = "bokeh", .today = "is the name of a file today", .rewrite = bokeh_file},
+    Spelling{.parameter = "innerRadius", .today = kEvenAperture},
+    Spelling{.parameter = "rateOfChange", .today = kEvenAperture},
+    Spelling{.parameter = "weightDistr", .today = kEvenAperture},
+    Spelling{.parameter = "weightStrength", .today = kEvenAperture},
+};
+} // namespace dialects
+
 struct ThinLens {
     static constexpr schema::TypeInfo info{
         .category = "camera",
@@ -62,7 +78,8 @@ struct ThinLens {
         .help = "A lens of finite size: what is not at the focal distance blurs, in the shape of "
                 "the aperture (a disk, a polygon, or an image).",
         .example = "<camera type=\"thinlens\" width=\"1280\" height=\"720\" fov=\"40\"\n"
-                   "        lensRadius=\"0.05\" focalDistance=\"4\" blades=\"6\"/>"};
+                   "        lensRadius=\"0.05\" focalDistance=\"4\" blades=\"6\"/>",
+        .spellings = dialects::kLenses};
     Viewpoint view;
     float fov = 45;
     FovAxis fov_axis = FovAxis::x;
@@ -82,15 +99,26 @@ struct ThinLens {
            .help = "Full opening angle over the axis `fovAxis`."});
         f("fovAxis", fov_axis, {.help = "The image axis that `fov` spans."});
         f("lensRadius", lens_radius,
-          {.unit = "scene", .min = 0, .help = "Radius of the lens; 0 is a pinhole."});
+          {.unit = "scene",
+           .min = 0,
+           .help = "Radius of the lens; 0 is a pinhole.",
+           .aliases = {"radius", "apertureRadius",
+                       schema::Alias{"aperture", "it is taken for the radius of the lens, not for "
+                                                 "its diameter or an f-number"}}});
         f("focalDistance", focal_distance,
           {.unit = "scene",
            .min = 1e-12,
-           .help = "Distance of the plane of focus, along the view axis."});
+           .help = "Distance of the plane of focus, along the view axis.",
+           .aliases = {schema::Alias{"focusDistance",
+                                     "what is in focus lies in a plane at this distance; the team "
+                                     "that says so focuses on a sphere, which differs towards the "
+                                     "edges of the picture"},
+                       "f"}});
         f("blades", blades,
           {.min = 0,
            .max = 64,
-           .help = "Number of aperture blades; fewer than 3 is a round aperture."});
+           .help = "Number of aperture blades; fewer than 3 is a round aperture.",
+           .aliases = {"lenselements"}});
         f("bladeRotation", blade_rotation,
           {.unit = "deg", .help = "Rotation of the polygonal aperture."});
         f("bokeh", bokeh,
@@ -114,7 +142,11 @@ struct Orthographic {
         f("scale", scale,
           {.unit = "scene",
            .min = 1e-12,
-           .help = "Half of the picture's extent along the axis `fovAxis`."});
+           .help = "Half of the picture's extent along the axis `fovAxis`.",
+           .aliases = {schema::Alias{"fov",
+                                     "an angle has no meaning for parallel rays; it is taken for "
+                                     "the extent that it spans at a distance of 1",
+                                     dialects::scale_of_fov}}});
         f("fovAxis", fov_axis, {.help = "The image axis that `scale` spans."});
     }
 };

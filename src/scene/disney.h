@@ -3,10 +3,24 @@
 // the Disney BRDF to a BSDF with Integrated Subsurface Scattering".
 #pragma once
 
+#include "scene/dialects.h"
 #include "scene/material_traits.h"
 #include "schema/describe.h"
 
 namespace weft::scene {
+
+namespace dialects {
+inline constexpr std::string_view kTintToday =
+    "is a colour today: an amount of the base colour's hue (Burley 2012) becomes one";
+inline constexpr std::array kDisney{
+    Spelling{.parameter = "specularTint", .today = kTintToday, .rewrite = specular_tint},
+    Spelling{.parameter = "sheenTint", .today = kTintToday, .rewrite = sheen_tint},
+    Spelling{.parameter = "clearcoatGloss",
+             .today = "is `clearcoatRoughness` today, the root of Burley's 0.1 (1 - gloss) + 0.001 "
+                      "gloss, and a `clearcoat` beside it counts a quarter, as his does",
+             .rewrite = coat_by_gloss},
+};
+} // namespace dialects
 
 struct Disney {
     static constexpr schema::TypeInfo info{
@@ -23,7 +37,8 @@ struct Disney {
                    "<bsdf type=\"disney\" baseColor=\"0.05,0.01,0.05\" roughness=\"1\" sheen=\"1\" "
                    "sheenTint=\"0.8,0.3,0.8\"/>\n"
                    "<bsdf type=\"disney\" baseColor=\"0.6,0.9,0.7\" roughness=\"0\" "
-                   "transmission=\"1\"/>"};
+                   "transmission=\"1\"/>",
+        .spellings = dialects::kDisney};
     Input<Color> base_color{Color(0.8f)};
     Input<float> metallic{0};
     Input<float> roughness{0.5f};
@@ -76,12 +91,14 @@ struct Disney {
            .help =
                "Index of refraction of what is not metal; higher reflects more, and bends light "
                "more where it goes through: water 1.33, skin 1.4, plastic and glass 1.5, "
-               "diamond 2.4."});
+               "diamond 2.4.",
+           .aliases = {"eta"}});
         f("specular", specular,
           {.min = 0,
            .max = 1,
            .help = "Strength of the reflection at normal incidence: 0.5 is what `ior` says, 0 is "
-                   "none, 1 is twice. Less for what is full of pores: cloth 0.2, clay 0.25."});
+                   "none, 1 is twice. Less for what is full of pores: cloth 0.2, clay 0.25.",
+           .aliases = {"specularLevel"}});
         f("specularTint", specular_tint,
           {.min = 0,
            .max = 1,
@@ -119,7 +136,10 @@ struct Disney {
            .max = 1,
            .help = "What the layer lets through, along the normal: amber varnish 1,0.8,0.5."});
         f("transmission", transmission,
-          {.min = 0, .max = 1, .help = "0 is opaque, 1 is glass or liquid."});
+          {.min = 0,
+           .max = 1,
+           .help = "0 is opaque, 1 is glass or liquid.",
+           .aliases = {"specularTrans", "specTrans"}});
         f("transmissionRoughness", transmission_roughness,
           {.min = -1,
            .max = 1,

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "scene/dialects.h"
 #include "scene/light_color.h"
 #include "scene/light_controls.h"
 
@@ -31,13 +32,27 @@ inline constexpr schema::Attr kPortalAttr{
     .help = "Windows that all of the light comes in by, for less noise in rooms. Light that comes "
             "another way is there, but noisy."};
 
+namespace dialects {
+inline constexpr std::string_view kEnvmapToday =
+    "is <light type=\"envmap\"> today, which is sampled by its brightness";
+inline constexpr std::array kEnvmaps{
+    Spelling{.type = "envmapIS", .today = kEnvmapToday},
+    Spelling{.type = "envmap1", .today = kEnvmapToday},
+    Spelling{.type = "simpleenvmap", .today = kEnvmapToday},
+    Spelling{.type = "warp2denvmap", .today = kEnvmapToday},
+    Spelling{.parameter = "importanceSampling",
+             .today = "has no effect: an environment is always sampled by its brightness"},
+};
+} // namespace dialects
+
 struct EnvironmentLight {
     static constexpr schema::TypeInfo info{
         .category = "light",
         .type = "envmap",
         .help = "Light from all around: u = 0.5 - atan2(z, x) / (2 pi), v from the angle to the "
                 "local y axis.",
-        .example = "<light type=\"envmap\"><texture type=\"image\" filename=\"sky.hdr\"/></light>"};
+        .example = "<light type=\"envmap\"><texture type=\"image\" filename=\"sky.hdr\"/></light>",
+        .spellings = dialects::kEnvmaps};
     Input<Color> texture{Color(1)};
     Affined transform;
     std::vector<PortalId> portals;

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scene/dialects.h"
 #include "scene/material_traits.h"
 #include "schema/describe.h"
 
@@ -81,6 +82,15 @@ struct MaterialTraits<Layered> : IsSurface, IsOpaque, IsWholeAndDark, IsIsotropi
     }
 };
 
+namespace dialects {
+inline constexpr std::array kCoats{
+    Spelling{.type = "principled_clearcoat",
+             .today = "is a <bsdf type=\"coat\"> over a `principled` one today, and its strength "
+                      "counts a quarter, as Burley's does",
+             .rewrite = coat_over_principled},
+};
+} // namespace dialects
+
 struct Coat {
     static constexpr schema::TypeInfo info{
         .category = "bsdf",
@@ -88,7 +98,8 @@ struct Coat {
         .help = "A clear layer over any material: varnish, lacquer, water, ice. It reflects, and "
                 "dims and tints what lies below.",
         .example = "<bsdf type=\"coat\" thickness=\"0.5\" tint=\"0.9,0.6,0.3\">\n"
-                   "  <bsdf type=\"disney\" metallic=\"1\"/></bsdf>"};
+                   "  <bsdf type=\"disney\" metallic=\"1\"/></bsdf>",
+        .spellings = dialects::kCoats};
     MaterialId bsdf;
     Input<float> weight{1};
     Input<float> roughness{0.05f};

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <variant>
 
+#include "scene/dialects.h"
 #include "scene/environment_light.h"
 #include "scene/light_color.h"
 #include "scene/sky_light.h"
@@ -83,6 +84,23 @@ struct DirectionalLight {
 enum class Falloff { linear, smooth };
 constexpr auto choices(Falloff) { return std::array<std::string_view, 2>{"linear", "smooth"}; }
 
+namespace dialects {
+inline constexpr std::array kSpots{
+    Spelling{.parameter = "falloffStart",
+             .today = "and `angle` count from the axis; today `angle` is the full angle of full "
+                      "intensity and `falloff` what the cone is wider, in which light falls "
+                      "otherwise. The power is that of a light that shines all around",
+             .rewrite = spot_by_half_angles},
+};
+inline constexpr std::string_view kSamplingToday =
+    "has no effect: lights are sampled by what arrives of them";
+inline constexpr std::array kAreas{
+    Spelling{.parameter = "improved", .today = kSamplingToday},
+    Spelling{.parameter = "intersectable",
+             .today = "has no effect: light counts once, whether rays or light sampling find it"},
+};
+} // namespace dialects
+
 struct SpotLight {
     static constexpr schema::TypeInfo info{
         .category = "light",
@@ -91,7 +109,8 @@ struct SpotLight {
                 "image. The camera does not see the ball unless `visibleToCamera` says so; mirrors "
                 "do.",
         .example = "<light type=\"spot\" position=\"0,3,0\" direction=\"0,-1,0\" angle=\"20\" "
-                   "falloff=\"20\" falloffShape=\"smooth\" power=\"800\" unit=\"photometric\"/>"};
+                   "falloff=\"20\" falloffShape=\"smooth\" power=\"800\" unit=\"photometric\"/>",
+        .spellings = dialects::kSpots};
     Vec3 position{0, 0, 0};
     Vec3 direction{0, 0, 1};
     Input<Color> intensity{Color(1)};
@@ -186,7 +205,8 @@ struct AreaLight {
                                            .type = "area",
                                            .help =
                                                "An emissive instance that is sampled as a light. "
-                                               "It is part of the scene: do not list it again."};
+                                               "It is part of the scene: do not list it again.",
+                                           .spellings = dialects::kAreas};
     InstanceId instance;
     float power = 0;
     LightUnit unit = LightUnit::radiometric;

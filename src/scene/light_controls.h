@@ -39,7 +39,8 @@ struct LightControls {
            .max = 100000,
            .soft_max = 16,
            .help = "How many bounces after the first surface its light may reach through: 0 is "
-                   "direct light alone; -1 is no limit."});
+                   "direct light alone; -1 is no limit.",
+           .aliases = {"lightBounce", "bounce"}});
         constexpr schema::Attr factor{.min = 0, .soft_max = 2};
         auto with = [&](std::string_view help) {
             schema::Attr attr = factor;

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "base/match.h"
+#include "scene/dialects.h"
 #include "scene/disney.h"
 #include "scene/handles.h"
 #include "scene/layered_materials.h"
@@ -106,6 +107,15 @@ struct MaterialTraits<Dielectric> : IsSurface, IsWholeAndDark, IsIsotropic, HasN
     static bool passes_straight(Dielectric const&) { return false; }
 };
 
+namespace dialects {
+inline constexpr std::string_view kDisneyToday = "is a parameter of <bsdf type=\"disney\"> today";
+inline constexpr std::array kPrincipled{
+    Spelling{.parameter = "transmission", .today = kDisneyToday, .rewrite = principled_as_disney},
+    Spelling{.parameter = "specularLevel", .today = kDisneyToday, .rewrite = principled_as_disney},
+    Spelling{.parameter = "ior", .today = kDisneyToday, .rewrite = principled_as_disney},
+};
+} // namespace dialects
+
 struct RoughDielectric {
     static constexpr schema::TypeInfo info{
         .category = "bsdf",
@@ -141,7 +151,8 @@ struct Principled {
         .category = "bsdf",
         .type = "principled",
         .help = "Four parameters from plastic to metal: a Lambert lobe under a GGX lobe whose "
-                "Fresnel term divides the light between them."};
+                "Fresnel term divides the light between them.",
+        .spellings = dialects::kPrincipled};
     Input<Color> base_color{Color(0.8f)};
     Input<float> roughness{0.5f};
     Input<float> metallic{0};
@@ -167,12 +178,32 @@ struct Principled {
 template <>
 struct MaterialTraits<Principled> : IsSurface, IsOpaque, IsWholeAndDark, IsIsotropic, HasNoParts {};
 
+namespace dialects {
+inline constexpr std::array kVolumes{
+    Spelling{.type = "hg",
+             .today = "is <bsdf type=\"volume\"> today, with scatter = albedo and absorption = 1 - "
+                      "albedo",
+             .rewrite = scattering_by_albedo},
+    Spelling{.type = "volumebsdf",
+             .today = "is <bsdf type=\"volume\"> today, with scatter = albedo and absorption = 1 - "
+                      "albedo",
+             .rewrite = scattering_by_albedo},
+    Spelling{.parameter = "absorption",
+             .today =
+                 "is the absorption coefficient, beside `scatter`, which is 1 where nothing is "
+                 "said; some teams of lightwave scale what is scattered by it, for which "
+                 "`baseColor` is the parameter here",
+             .rewrite = scatter_is_one},
+};
+} // namespace dialects
+
 struct VolumeBoundary {
     static constexpr schema::TypeInfo info{
         .category = "bsdf",
         .type = "volume",
         .help = "No surface at all: the shape bounds a medium (smoke, fog, milk). Its density is "
-                "the instance's `<volume>`, 1 where there is none."};
+                "the instance's `<volume>`, 1 where there is none.",
+        .spellings = dialects::kVolumes};
     Color absorption{0};
     Color scatter{1};
     float phase = 0;
@@ -187,11 +218,13 @@ struct VolumeBoundary {
         f("phase", phase,
           {.min = -0.999,
            .max = 0.999,
-           .help = "Henyey-Greenstein g: -1 backwards, 0 evenly, 1 forwards."});
+           .help = "Henyey-Greenstein g: -1 backwards, 0 evenly, 1 forwards.",
+           .aliases = {"g"}});
         f("baseColor", base_color,
           {.min = 0,
            .max = 1,
-           .help = "Fraction of scattered light that is not absorbed, by colour."});
+           .help = "Fraction of scattered light that is not absorbed, by colour.",
+           .aliases = {"color"}});
     }
 };
 template <>
@@ -261,6 +294,19 @@ struct ConstantVolume {
     }
 };
 
+namespace dialects {
+inline constexpr std::string_view kExtinctionToday =
+    "and `color` are `absorption` and `scatter` today: light meets the medium sigmaT times per "
+    "unit "
+    "of length, and goes on by the colour. The team that says so also divides what is scattered by "
+    "pi";
+inline constexpr std::array kMedia{
+    Spelling{.parameter = "sigmaT", .today = kExtinctionToday, .rewrite = medium_by_albedo},
+    Spelling{.parameter = "sigma_t", .today = kExtinctionToday, .rewrite = medium_by_albedo},
+    Spelling{.parameter = "density", .today = kExtinctionToday, .rewrite = medium_by_albedo},
+};
+} // namespace dialects
+
 struct HomogeneousMedium {
     static constexpr schema::TypeInfo info{
         .category = "medium",
@@ -268,7 +314,8 @@ struct HomogeneousMedium {
         .help = "What fills a closed shape (inside an `instance`), or all space that no shape "
                 "fills (inside a `scene`): coloured glass, milk, fog.",
         .example = "<instance><shape type=\"sphere\"/><bsdf type=\"dielectric\"/>\n"
-                   "  <medium type=\"homogeneous\" absorption=\"2,0.5,0.1\"/></instance>"};
+                   "  <medium type=\"homogeneous\" absorption=\"2,0.5,0.1\"/></instance>",
+        .spellings = dialects::kMedia};
     Color absorption{0};
     Color scatter{0};
     float phase = 0;

@@ -5,6 +5,7 @@
 #include <array>
 #include <string_view>
 
+#include "scene/dialects.h"
 #include "scene/handles.h"
 #include "schema/describe.h"
 
@@ -134,6 +135,13 @@ struct ColorCorrect {
     }
 };
 
+inline constexpr std::array kTints{
+    schema::Spelling{.parameter = "tint",
+                     .today = "is one factor of a <texture type=\"multiply\"> today, and the glow "
+                              "is the other",
+                     .rewrite = dialects::tinted_blackbody},
+};
+
 struct Blackbody {
     static constexpr schema::TypeInfo info{
         .category = "texture",
@@ -143,7 +151,8 @@ struct Blackbody {
                 "can show (below 1900 K), it is as red as possible.",
         .example = "<emission type=\"lambertian\"><texture name=\"emission\" type=\"blackbody\" "
                    "temperature=\"2700\"/></emission>",
-        .output = ValueType::color};
+        .output = ValueType::color,
+        .spellings = kTints};
     Input<float> temperature{5000};
 
     template <class F>

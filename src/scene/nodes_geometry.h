@@ -23,11 +23,18 @@ struct Position {
     }
 };
 
+inline constexpr std::array kNormalFiles{
+    schema::Spelling{.parameter = "filename",
+                     .today = "is one of <texture type=\"image\" linear=\"true\"> today",
+                     .rewrite = dialects::normals_file},
+};
+
 struct Normal {
     static constexpr schema::TypeInfo info{.category = "texture",
                                            .type = "normal",
                                            .help = "Unit shading normal.",
-                                           .output = ValueType::vector3};
+                                           .output = ValueType::vector3,
+                                           .spellings = kNormalFiles};
     Space space = Space::object;
 
     template <class F>

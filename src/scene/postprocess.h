@@ -19,6 +19,7 @@
 
 #include "base/match.h"
 #include "scene/bloom.h"
+#include "scene/dialects.h"
 #include "scene/handles.h"
 #include "scene/tonemap.h"
 #include "schema/describe.h"
@@ -37,6 +38,14 @@ constexpr auto choices(DenoiseQuality) {
     return std::array<std::string_view, 2>{"high", "balanced"};
 }
 
+namespace dialects {
+inline constexpr std::array kDenoisers{
+    Spelling{.type = "denoise", .today = "is <postprocess type=\"denoising\"> today"},
+    Spelling{.parameter = "aovs",
+             .today = "has no effect: what tells which edges are real are `albedo` and `normal`"},
+};
+} // namespace dialects
+
 struct Denoising {
     static constexpr schema::TypeInfo info{
         .category = "postprocess",
@@ -46,7 +55,8 @@ struct Denoising {
         .example =
             "<postprocess type=\"denoising\">\n  <ref name=\"input\" id=\"noisy\"/>\n"
             "  <ref name=\"albedo\" id=\"albedo\"/>\n  <ref name=\"normal\" id=\"normal\"/>\n"
-            "  <image id=\"clean\"/>\n</postprocess>"};
+            "  <image id=\"clean\"/>\n</postprocess>",
+        .spellings = dialects::kDenoisers};
     ImageId input, albedo, normal, image;
     DenoiseBackend backend = DenoiseBackend::automatic;
     DenoiseQuality quality = DenoiseQuality::high;
@@ -56,11 +66,14 @@ struct Denoising {
     constexpr void describe(F&& f) {
         f("input", input,
           {.required = true, .help = "The picture with noise, made before this one."});
-        f("albedo", albedo, {.help = "What the `albedo` integrator draws of the same scene."});
+        f("albedo", albedo,
+          {.help = "What the `albedo` integrator draws of the same scene.",
+           .aliases = {"albedos"}});
         f("normal", normal,
           {.help = "What the `normal` integrator draws of the same scene; (n + 1) / 2 where no "
                    "value is negative, else n. Is used only together with the albedo by `oidn` "
-                   "and `network`."});
+                   "and `network`.",
+           .aliases = {"normals"}});
         f("image", image, {.required = true, .help = "The picture to write."});
         f("backend", backend,
           {.help = "oidn: the library Open Image Denoise; network: its published weights, "

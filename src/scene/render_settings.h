@@ -3,22 +3,32 @@
 
 #include <array>
 #include <concepts>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
 
 #include "base/match.h"
 #include "scene/aov.h"
+#include "scene/dialects.h"
 #include "scene/handles.h"
 #include "schema/describe.h"
 
 namespace weft::scene {
 
+namespace dialects {
+inline constexpr std::array kSamplers{
+    Spelling{.parameter = "seed", .today = "is an option of the program today: --seed"},
+};
+} // namespace dialects
+
 /// One struct per sampler type: all have the same parameter.
 template <class Type>
 struct SamplerSettings {
-    static constexpr schema::TypeInfo info{
-        .category = "sampler", .type = Type::name, .help = Type::help};
+    static constexpr schema::TypeInfo info{.category = "sampler",
+                                           .type = Type::name,
+                                           .help = Type::help,
+                                           .spellings = dialects::kSamplers};
     int count = 64;
 
     template <class F>
@@ -96,9 +106,46 @@ constexpr auto choices(AovVariable) {
     return std::array<std::string_view, 4>{"normals", "distance", "uv", "bvh"};
 }
 
+namespace dialects {
+inline constexpr std::array kAovs{
+    Spelling{.type = "normals",
+             .today = "is <integrator type=\"aov\" variable=\"normals\"> today",
+             .rewrite = normals_as_aov},
+    Spelling{.type = "bvh",
+             .today = "is <integrator type=\"aov\" variable=\"bvh\"> today",
+             .rewrite = bvh_as_aov},
+    Spelling{.parameter = "variable",
+             .today = "\"albedo\" is <integrator type=\"albedo\"> today",
+             .rewrite = albedo_as_integrator},
+    Spelling{.parameter = "nee", .today = kFirstHit},
+    Spelling{.parameter = "mis", .today = kFirstHit},
+};
+inline constexpr std::array kNormals{
+    Spelling{.parameter = "variable", .today = kFirstHit},
+    Spelling{.parameter = "nee", .today = kFirstHit},
+    Spelling{.parameter = "mis", .today = kFirstHit},
+};
+inline constexpr std::array kAlbedos{
+    Spelling{.type = "albedos", .today = "is <integrator type=\"albedo\"> today"},
+    Spelling{.parameter = "nee", .today = kFirstHit},
+    Spelling{.parameter = "mis", .today = kFirstHit},
+};
+inline constexpr std::array kDirect{
+    Spelling{.parameter = "variable",
+             .today = "has no effect: this integrator draws light; the normals are <integrator "
+                      "type=\"aov\" variable=\"normals\">"},
+    Spelling{.parameter = "depth",
+             .today = "has no effect: light comes over one surface here; `pathtracer` has a depth"},
+    Spelling{.parameter = "nee", .today = kOneStrategy},
+    Spelling{.parameter = "mis", .today = kOneStrategy},
+};
+} // namespace dialects
+
 struct AovIntegrator {
-    static constexpr schema::TypeInfo info{
-        .category = "integrator", .type = "aov", .help = "Draws one property of the first hit."};
+    static constexpr schema::TypeInfo info{.category = "integrator",
+                                           .type = "aov",
+                                           .help = "Draws one property of the first hit.",
+                                           .spellings = dialects::kAovs};
     RenderTarget target;
     AovVariable variable = AovVariable::normals;
     float scale = 1;
@@ -117,7 +164,8 @@ struct NormalIntegrator {
     static constexpr schema::TypeInfo info{
         .category = "integrator",
         .type = "normal",
-        .help = "Draws the shading normal at the first hit; black where there is none."};
+        .help = "Draws the shading normal at the first hit; black where there is none.",
+        .spellings = dialects::kNormals};
     RenderTarget target;
     bool remap = true;
 
@@ -132,7 +180,8 @@ struct AlbedoIntegrator {
     static constexpr schema::TypeInfo info{
         .category = "integrator",
         .type = "albedo",
-        .help = "Draws the fraction of light that the first surface scatters."};
+        .help = "Draws the fraction of light that the first surface scatters.",
+        .spellings = dialects::kAlbedos};
     RenderTarget target;
 
     template <class F>
@@ -145,7 +194,8 @@ struct DirectIntegrator {
     static constexpr schema::TypeInfo info{
         .category = "integrator",
         .type = "direct",
-        .help = "Light that reaches the camera over at most one surface."};
+        .help = "Light that reaches the camera over at most one surface.",
+        .spellings = dialects::kDirect};
     RenderTarget target;
     Outputs outputs;
 
@@ -165,6 +215,9 @@ inline constexpr schema::Attr kDepthAttr{
 
 enum class Strategy { mis, nee, bsdf };
 constexpr auto choices(Strategy) { return std::array<std::string_view, 3>{"mis", "nee", "bsdf"}; }
+inline constexpr schema::Attr kStrategyAttr{
+    .help = "How light is found: by the lights (nee), by the surfaces (bsdf), or both combined by "
+            "multiple importance sampling (mis). All have the same mean."};
 
 struct PathIntegrator {
     static constexpr schema::TypeInfo info{
@@ -173,7 +226,8 @@ struct PathIntegrator {
         .help = "All light, over any number of surfaces and media.",
         .example =
             "<integrator type=\"path\" depth=\"16\">\n  <ref id=\"scene\"/>\n"
-            "  <sampler type=\"sobol\" count=\"256\"/>\n  <image id=\"picture\"/>\n</integrator>"};
+            "  <sampler type=\"sobol\" count=\"256\"/>\n  <image id=\"picture\"/>\n</integrator>",
+        .spellings = dialects::kStrategies};
     RenderTarget target;
     int depth = 16;
     Strategy strategy = Strategy::mis;
@@ -191,9 +245,7 @@ struct PathIntegrator {
     constexpr void describe(F&& f) {
         f.group(target);
         f("depth", depth, kDepthAttr);
-        f("strategy", strategy,
-          {.help = "How light is found: by the lights (nee), by the surfaces (bsdf), or both "
-                   "combined by multiple importance sampling (mis). All have the same mean."});
+        f("strategy", strategy, kStrategyAttr);
         f("rouletteDepth", roulette_depth,
           {.min = 1,
            .max = 100000,
@@ -232,29 +284,57 @@ struct PathIntegrator {
     }
 };
 
-/// lightwave's names for the path integrator with a fixed strategy.
+namespace dialects {
+inline constexpr std::array kPathtracers{
+    Spelling{.type = "neepathtracer", .today = "is <integrator type=\"pathtracer\"> today"},
+    Spelling{.type = "bsdfpathtracer",
+             .today = "is <integrator type=\"pathtracer\" strategy=\"bsdf\"> today",
+             .rewrite = path_without_lights},
+    Spelling{.type = "volumePathtracer",
+             .today = "is <integrator type=\"pathtracer\"> today, which follows light through "
+                      "media, too"},
+    kStrategies[0],
+    kStrategies[1],
+    kStrategies[2],
+};
+inline constexpr std::array kMisPathtracers{
+    Spelling{.type = "pathtracer_mis", .today = "is <integrator type=\"mis\"> today"},
+    Spelling{.type = "mispathtracer", .today = "is <integrator type=\"mis\"> today"},
+    kStrategies[0],
+    kStrategies[1],
+    kStrategies[2],
+};
+} // namespace dialects
+
+/// lightwave's names for the path integrator, each with a usual strategy.
 template <class Type>
 struct NamedPathIntegrator {
-    static constexpr schema::TypeInfo info{
-        .category = "integrator", .type = Type::name, .help = Type::help};
+    static constexpr schema::TypeInfo info{.category = "integrator",
+                                           .type = Type::name,
+                                           .help = Type::help,
+                                           .spellings = Type::spellings};
     RenderTarget target;
     int depth = 2;
+    Strategy strategy = Type::strategy;
     Outputs outputs;
 
     template <class F>
     constexpr void describe(F&& f) {
         f.group(target);
         f("depth", depth, kDepthAttr);
+        f("strategy", strategy, kStrategyAttr);
         f.group(outputs);
     }
 };
 struct PathtracerType {
     static constexpr std::string_view name = "pathtracer", help = "`path` with strategy nee.";
     static constexpr Strategy strategy = Strategy::nee;
+    static constexpr std::span<schema::Spelling const> spellings = dialects::kPathtracers;
 };
 struct MisType {
     static constexpr std::string_view name = "mis", help = "`path` with strategy mis.";
     static constexpr Strategy strategy = Strategy::mis;
+    static constexpr std::span<schema::Spelling const> spellings = dialects::kMisPathtracers;
 };
 
 using Integrator = std::variant<CameraIntegrator, AovIntegrator, NormalIntegrator, AlbedoIntegrator,
@@ -307,12 +387,21 @@ struct ImageOutput {
     }
 };
 
+namespace dialects {
+inline constexpr std::array kTests{
+    Spelling{.parameter = "scene",
+             .today = "stands inside of the integrator that refers to it today",
+             .rewrite = scene_into_integrator},
+};
+} // namespace dialects
+
 struct ImageTest {
     static constexpr schema::TypeInfo info{
         .category = "test",
         .type = "image",
         .help = "Renders its integrator, or does its postprocess, to ID_test.exr beside the scene "
-                "and compares with ID_ref.exr."};
+                "and compares with ID_ref.exr.",
+        .spellings = dialects::kTests};
     IntegratorId integrator;
     PostprocessId postprocess;
     float mae = 0.1f;

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "image/texture.h"
 #include "scene/camera.h"
+#include "scene/dialects.h"
 #include "scene/light.h"
 #include "scene/material.h"
 #include "scene/mesh.h"
@@ -21,13 +22,22 @@
 
 namespace weft::scene {
 
+namespace dialects {
+inline constexpr std::array kScenes{
+    Spelling{.parameter = "instance",
+             .today = "that is a volume around no shape is the `medium` of the scene today",
+             .rewrite = volume_everywhere},
+};
+} // namespace dialects
+
 /// What stands directly inside `<scene>`.
 struct SceneContents {
     static constexpr schema::TypeInfo info{
         .category = "scene",
         .type = "",
         .help = "A camera, lights and instances; also materials, textures and shapes with an id, "
-                "for use by reference."};
+                "for use by reference.",
+        .spellings = dialects::kScenes};
     CameraId camera;
     std::vector<LightId> lights;
     std::vector<InstanceId> instances;

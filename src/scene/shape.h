@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "scene/dialects.h"
 #include "scene/handles.h"
 #include "schema/describe.h"
 
@@ -99,11 +100,27 @@ struct RayVisibility {
     friend constexpr bool operator==(RayVisibility const&, RayVisibility const&) = default;
 };
 
+namespace dialects {
+inline constexpr std::array kInstances{
+    Spelling{.parameter = "shape",
+             .today = "that is a volume around another shape is that shape today, with a `volume` "
+                      "bsdf and a <volume type=\"constant\">, whose density is per unit of the "
+                      "scene",
+             .rewrite = volume_shape},
+    Spelling{.parameter = "bsdf",
+             .today =
+                 "of type \"volumebsdf\" beside a <medium> is no surface: today the medium has "
+                 "its colour, and the instance no bsdf",
+             .rewrite = albedo_into_medium},
+};
+} // namespace dialects
+
 struct Instance {
     static constexpr schema::TypeInfo info{.category = "instance",
                                            .type = "",
                                            .help =
-                                               "One shape at one place, with what it is made of."};
+                                               "One shape at one place, with what it is made of.",
+                                           .spellings = dialects::kInstances};
     ShapeId shape;
     MaterialId bsdf;
     EmissionId emission;

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "scene/color_space.h"
+#include "scene/dialects.h"
 #include "scene/handles.h"
 #include "scene/nodes_color.h"
 #include "scene/nodes_geometry.h"
@@ -41,6 +42,17 @@ constexpr auto choices(TextureFilter) {
 /// What stands for the number of a tile in the name of a set of files.
 inline constexpr std::string_view kUdim = "<UDIM>";
 
+namespace dialects {
+inline constexpr std::array kImages{
+    Spelling{.parameter = "image",
+             .today = "is `filename` and `linear` of the texture itself today",
+             .rewrite = image_file},
+};
+inline constexpr std::array kCheckerboards{
+    Spelling{.parameter = "value", .today = "has no effect: the colours are `color0` and `color1`"},
+};
+} // namespace dialects
+
 struct ImageTexture {
     static constexpr schema::TypeInfo info{
         .category = "texture",
@@ -48,7 +60,8 @@ struct ImageTexture {
         .help = "An image file over the unit square of uv; v runs upwards. 8 and 16 bit files hold "
                 "screen colours unless `linear` is set, float files (EXR, HDR) are linear.",
         .example = "<texture name=\"albedo\" type=\"image\" filename=\"wood.png\"/>",
-        .output = ValueType::color};
+        .output = ValueType::color,
+        .spellings = dialects::kImages};
     FileName filename;
     float exposure = 1;
     TextureBorder border = TextureBorder::repeat;
@@ -85,7 +98,8 @@ struct Checkerboard {
     static constexpr schema::TypeInfo info{.category = "texture",
                                            .type = "checkerboard",
                                            .help = "Two colours in alternating cells.",
-                                           .output = ValueType::color};
+                                           .output = ValueType::color,
+                                           .spellings = dialects::kCheckerboards};
     Input<Color> color0{Color(0)};
     Input<Color> color1{Color(1)};
     Input<Vec2> scale{Vec2(1, 1)};

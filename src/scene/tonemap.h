@@ -5,6 +5,7 @@
 #include <array>
 #include <string_view>
 
+#include "scene/dialects.h"
 #include "scene/handles.h"
 #include "schema/describe.h"
 
@@ -15,6 +16,20 @@ constexpr auto choices(ToneOperator) {
     return std::array<std::string_view, 2>{"reinhard", "drago"};
 }
 
+namespace dialects {
+inline constexpr std::string_view kTonemapToday =
+    "is <postprocess type=\"tonemap\"> today; teams calculate it in different ways, one from each "
+    "channel, one from the luminance. Here it is the operator `drago` unless something else is "
+    "said";
+inline constexpr std::array kTonemaps{
+    Spelling{.type = "tone_mapping", .today = kTonemapToday, .rewrite = operator_by_flag},
+    Spelling{.type = "tonemapping", .today = "is <postprocess type=\"tonemap\"> today"},
+    Spelling{.parameter = "useLogScale",
+             .today = "is the operator `drago` today; without it, it is `reinhard`",
+             .rewrite = operator_by_flag},
+};
+} // namespace dialects
+
 struct Tonemap {
     static constexpr schema::TypeInfo info{
         .category = "postprocess",
@@ -23,7 +38,8 @@ struct Tonemap {
                 "curves; this is for files that go on as light.",
         .example =
             "<postprocess type=\"tonemap\" operator=\"reinhard\">\n"
-            "  <ref name=\"input\" id=\"picture\"/>\n  <image id=\"mapped\"/>\n</postprocess>"};
+            "  <ref name=\"input\" id=\"picture\"/>\n  <image id=\"mapped\"/>\n</postprocess>",
+        .spellings = dialects::kTonemaps};
     ImageId input, image;
     ToneOperator curve = ToneOperator::reinhard;
     float bias = 0.85f;

@@ -19,6 +19,7 @@ void add_render_command(CLI::App& app, Command& chosen);
 void add_replay_command(CLI::App& app, Command& chosen);
 void add_merge_command(CLI::App& app, Command& chosen);
 void add_test_command(CLI::App& app, Command& chosen);
+void add_convert_command(CLI::App& app, Command& chosen);
 void add_info_command(CLI::App& app, Command& chosen);
 void add_compare_command(CLI::App& app, Command& chosen);
 void add_display_command(CLI::App& app, Command& chosen);

@@ -45,6 +45,7 @@ int run(InfoArguments const& args) {
     }
     print_textures(file.textures->statistics());
     for (std::string const& warning : file.warnings) fmt::print("warning: {}\n", warning);
+    for (std::string const& note : file.notes) fmt::print("note: {}\n", note);
     return kDone;
 }
 

@@ -1,5 +1,5 @@
-// The command line: `weft render`, `merge`, `replay`, `test`, `info`, `compare`, `display`,
-// `bloom`, `maketx`, `denoise`, `help`, `schema`, `docs`.
+// The command line: `weft render`, `merge`, `replay`, `test`, `convert`, `info`, `compare`,
+// `display`, `bloom`, `maketx`, `denoise`, `help`, `schema`, `docs`.
 #include <cstdio>
 #include <filesystem>
 
@@ -20,6 +20,7 @@ int main(int argc, char** argv) {
     add_replay_command(app, chosen);
     add_merge_command(app, chosen);
     add_test_command(app, chosen);
+    add_convert_command(app, chosen);
     add_info_command(app, chosen);
     add_compare_command(app, chosen);
     add_display_command(app, chosen);

@@ -41,6 +41,7 @@ std::unique_ptr<lights::Stage const> commit_stage(scene::RenderJob const& job,
 
 void print_messages(io::SceneFile const& file) {
     for (std::string const& warning : file.warnings) fmt::print(stderr, "warning: {}\n", warning);
+    for (std::string const& note : file.notes) fmt::print(stderr, "note: {}\n", note);
 }
 
 void read_picture_files(io::SceneFile const& file, scene::PostprocessJob const& job,

@@ -18,7 +18,7 @@ std::unique_ptr<lights::Stage const> commit_stage(scene::RenderJob const& job,
                                                   std::string const& isa = "",
                                                   std::string const& size = "");
 
-/// Tells on stderr what the reader has to say of a file.
+/// Tells on stderr what the reader has to say of a file: warnings, and notes on other dialects.
 void print_messages(io::SceneFile const& file);
 
 /// Reads the files among the pictures that a postprocess reads into `pictures`. Throws InputError.
