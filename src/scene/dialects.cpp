@@ -264,6 +264,27 @@ bool spot_by_half_angles(Element& light, Surroundings const&) {
     return true;
 }
 
+bool sun_as_directional(Element& light, Surroundings const&) {
+    light.set("type", "directional");
+    if (has_parameter(light, "size")) {
+        set_parameter(light, "angle", text(number_of(light, "size") * 360 / M_PI));
+        erase_parameter(light, "size");
+    }
+    if (!has_parameter(light, "visibleToCamera")) light.set("visibleToCamera", "true");
+    return true;
+}
+
+bool scale_of_constant(Element& texture, Surroundings const&) {
+    Element const* child = parameter_child(texture, "scale");
+    if (!child || child->tag != "texture" || child->get("type") != "constant") return false;
+    std::string_view const value = child->get("value");
+    auto scale = read_components(value, 3);
+    if (!scale) scale = read_components(value, 2);
+    if (!scale) return false;
+    set_parameter(texture, "scale", text((*scale)[0]) + "," + text((*scale)[1]));
+    return true;
+}
+
 bool bloom_by_boxes(Element& bloom, Surroundings const&) {
     double const half = has_parameter(bloom, "kernelSize") ? number_of(bloom, "kernelSize") : 10;
     double const times = has_parameter(bloom, "iterations") ? number_of(bloom, "iterations") : 3;

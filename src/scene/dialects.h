@@ -68,11 +68,15 @@ bool coat_over_principled(Element& bsdf, Surroundings const&);
 bool image_file(Element& texture, Surroundings const&);
 bool normals_file(Element& texture, Surroundings const&);
 bool tinted_blackbody(Element& texture, Surroundings const&);
+/// <texture name="scale" type="constant" value="16,8,0"/>
+bool scale_of_constant(Element& texture, Surroundings const&);
 
 // Lights.
 
 /// A spot whose angles are halves, counted from the axis, and whose power is that of a point light.
 bool spot_by_half_angles(Element& light, Surroundings const&);
+/// A disk of half angle `size` (radians) that the camera sees.
+bool sun_as_directional(Element& light, Surroundings const&);
 
 // Postprocesses.
 

@@ -40,6 +40,10 @@ inline constexpr std::array kEnvmaps{
     Spelling{.type = "envmap1", .today = kEnvmapToday},
     Spelling{.type = "simpleenvmap", .today = kEnvmapToday},
     Spelling{.type = "warp2denvmap", .today = kEnvmapToday},
+    Spelling{.type = "warp2devnmap", .today = kEnvmapToday},
+    Spelling{.parameter = "mis_compensation_strength",
+             .today = "has no effect: what surfaces find of an environment by themselves, light "
+                      "sampling leaves to them"},
     Spelling{.parameter = "importanceSampling",
              .today = "has no effect: an environment is always sampled by its brightness"},
 };

@@ -49,12 +49,22 @@ struct PointLight {
     }
 };
 
+namespace dialects {
+inline constexpr std::array kDirectionals{
+    Spelling{.type = "sun",
+             .today = "is <light type=\"directional\" visibleToCamera=\"true\"> today, whose "
+                      "`angle` is the full one in degrees; `size` is half of it in radians",
+             .rewrite = sun_as_directional},
+};
+} // namespace dialects
+
 struct DirectionalLight {
     static constexpr schema::TypeInfo info{
         .category = "light",
         .type = "directional",
         .help = "Parallel light from infinitely far away or, with an angle, a disk there. The "
-                "camera does not see the disk unless `visibleToCamera` says so; mirrors do."};
+                "camera does not see the disk unless `visibleToCamera` says so; mirrors do.",
+        .spellings = dialects::kDirectionals};
     Vec3 direction{0, 0, 1};
     Input<Color> intensity{Color(1)};
     float angle = 0;

@@ -112,6 +112,8 @@ inline constexpr std::array kInstances{
                  "of type \"volumebsdf\" beside a <medium> is no surface: today the medium has "
                  "its colour, and the instance no bsdf",
              .rewrite = albedo_into_medium},
+    Spelling{.parameter = "index",
+             .today = "has no effect: nothing asks for the number of an object"},
 };
 } // namespace dialects
 

@@ -50,6 +50,9 @@ inline constexpr std::array kImages{
 };
 inline constexpr std::array kCheckerboards{
     Spelling{.parameter = "value", .today = "has no effect: the colours are `color0` and `color1`"},
+    Spelling{.parameter = "scale",
+             .today = "is two numbers today, not a texture of a constant colour",
+             .rewrite = scale_of_constant},
 };
 } // namespace dialects
 
