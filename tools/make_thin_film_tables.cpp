@@ -5,8 +5,10 @@
 //
 // The sensitivities are the CIE 1931 colour matching functions (in the fits of Wyman, Sloan and
 // Shirley 2013, "Simple analytic approximations to the CIE XYZ color matching functions", table 1)
-// from 380 to 780 nm, turned to Rec. 709 primaries and each divided by its integral, so that a
-// flat spectrum is white.
+// times the spectrum of the illuminant D65 (CIE 15) from 380 to 780 nm, turned to Rec. 709
+// primaries, whose white it is. So a flat reflectance is white, and colours are those of a film in
+// the white light of the pictures. What the fits' white is off by (0.0005) is divided out.
+#include <algorithm>
 #include <array>
 #include <complex>
 #include <cstdio>
@@ -14,6 +16,21 @@
 #include "lobes/thin_film.h"
 
 namespace {
+
+/// Relative power of D65, every 10 nm from 380 to 780.
+constexpr std::array<double, 41> d65{49.9755, 54.6482, 82.7549, 91.4860, 93.4318, 86.6823, 104.865,
+                                     117.008, 117.812, 114.861, 115.923, 108.811, 109.354, 107.802,
+                                     104.790, 107.689, 104.405, 104.046, 100.000, 96.3342, 95.7880,
+                                     88.6856, 90.0062, 89.5991, 87.6987, 83.2886, 83.6992, 80.0268,
+                                     80.2146, 82.2778, 78.2842, 69.7213, 71.6091, 74.3490, 61.6040,
+                                     69.8856, 75.0870, 63.5927, 46.4182, 66.8054, 63.3828};
+
+/// Linear between the table's values, as CIE 15 has it.
+double illuminant(double nm) {
+    double const x = (nm - 380) / 10;
+    auto const i = std::min(size_t(x), d65.size() - 2);
+    return d65[i] + (d65[i + 1] - d65[i]) * (x - double(i));
+}
 
 double lobe(double x, double mean, double below, double above) {
     double const t = (x - mean) / (x < mean ? below : above);
@@ -25,9 +42,10 @@ std::array<double, 3> sensitivity(double nm) {
                      0.065 * lobe(nm, 501.1, 20.4, 26.2);
     double const y = 0.821 * lobe(nm, 568.8, 46.9, 40.5) + 0.286 * lobe(nm, 530.9, 16.3, 31.1);
     double const z = 1.217 * lobe(nm, 437.0, 11.8, 36.0) + 0.681 * lobe(nm, 459.0, 26.0, 13.8);
-    return {3.2404542 * x - 1.5371385 * y - 0.4985314 * z,
-            -0.9692660 * x + 1.8760108 * y + 0.0415560 * z,
-            0.0556434 * x - 0.2040259 * y + 1.0572252 * z};
+    double const light = illuminant(nm);
+    return {light * (3.2404542 * x - 1.5371385 * y - 0.4985314 * z),
+            light * (-0.9692660 * x + 1.8760108 * y + 0.0415560 * z),
+            light * (0.0556434 * x - 0.2040259 * y + 1.0572252 * z)};
 }
 
 } // namespace

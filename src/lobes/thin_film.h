@@ -8,8 +8,9 @@
 //     R = 1 - K (1 + 2 Re sum over m >= 1 of (-q)^m S(m D)),
 //     K = (1 - |r12|^2) (1 - |r23|^2) / (1 - |q|^2).
 // Where they take S from a fit of Gaussians, here it is tabulated (tools/
-// make_thin_film_tables.cpp) from the CIE 1931 curves, and the series goes on until what is left
-// does not matter. Against the spectral integral: error below 0.02 (tests/lobes/thin_film.cpp).
+// make_thin_film_tables.cpp) from the CIE 1931 curves under D65, the white of the pictures, and the
+// series goes on until what is left does not matter. Against the spectral integral: error below
+// 0.02 (tests/lobes/thin_film.cpp).
 //
 // Where the film totally reflects (its index below that of wo's side) light still tunnels through
 // a film thinner than a wavelength; that falls off without oscillating, and a sum over a few
