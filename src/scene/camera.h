@@ -122,8 +122,9 @@ struct ThinLens {
         f("bladeRotation", blade_rotation,
           {.unit = "deg", .help = "Rotation of the polygonal aperture."});
         f("bokeh", bokeh,
-          {.help = "An image whose brightness is the aperture's transmission; it fills the square "
-                   "around the lens."});
+          {.help =
+               "An image whose brightness is the aperture's transmission relative to its mean, so "
+               "that the exposure stays; it fills the square around the lens."});
     }
 };
 
