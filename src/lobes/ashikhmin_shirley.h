@@ -27,6 +27,7 @@ float ashikhmin_shirley_area(float alpha, float a);
 
 struct AshikhminShirley {
     float alpha_x = 0.1f, alpha_y = 0.1f; ///< along local x and y
+    Shadowing shadowing = Shadowing::Correlated;
 
     /// D(m) per solid angle of the unit normal m; 0 below the horizon.
     float density(Vec3 const& m) const {

@@ -34,23 +34,6 @@ Color mean(ConductorFresnel const& f) {
 }
 Color mean(ThinFilmFresnel const& f) { return mean(ConductorFresnel{f.eta, f.k}); }
 
-Color rough(WhiteFresnel const&, ReflectionMoments const& m) { return Color(m.white); }
-Color rough(SchlickFresnel const& f, ReflectionMoments const& m) {
-    return f.f0 * m.white + (f.f90 - f.f0) * m.schlick - f.edge * m.edge;
-}
-Color rough(ConductorFresnel const& f, ReflectionMoments const& m) {
-    return rough(schlick_fit(f), m);
-}
-/// Two points with the moments' mean and deviation of c.
-template <class F>
-Color two_points(F const& f, ReflectionMoments const& m) {
-    Color const a = reflectance(f, std::min(m.mean + m.deviation, 1.f));
-    Color const b = reflectance(f, std::max(m.mean - m.deviation, 0.f));
-    return (a + b) * (0.5f * m.white);
-}
-Color rough(DielectricFresnel const& f, ReflectionMoments const& m) { return two_points(f, m); }
-Color rough(ThinFilmFresnel const& f, ReflectionMoments const& m) { return two_points(f, m); }
-
 } // namespace
 
 SchlickFresnel schlick_f82(Color const& f0, Color const& tint) {
@@ -62,8 +45,11 @@ Color mean_reflectance(Fresnel const& fresnel) {
     return match(fresnel, [](auto const& f) { return mean(f); });
 }
 
-Color rough_reflectance(Fresnel const& fresnel, ReflectionMoments const& m) {
-    return match(fresnel, [&m](auto const& f) { return rough(f, m); });
+Color rough_reflectance(SchlickFresnel const& f, ReflectionMoments const& m) {
+    return f.f0 * m.white + (f.f90 - f.f0) * m.schlick - f.edge * m.edge;
+}
+Color rough_reflectance(ConductorFresnel const& f, ReflectionMoments const& m) {
+    return rough_reflectance(schlick_fit(f), m);
 }
 
 } // namespace weft::lobes

@@ -63,8 +63,10 @@ inline Color reflectance(Fresnel const& fresnel, float cos_o) {
 /// 0.02 for the others; films count as their base. What multiple scattering sees.
 Color mean_reflectance(Fresnel const& fresnel);
 
-/// The mean reflectance times `m.white`: of a rough surface with these moments. Exact for Schlick.
-Color rough_reflectance(Fresnel const& fresnel, ReflectionMoments const& m);
+/// Of a rough surface with these moments. Exact for Schlick; for conductors by the curve with an
+/// edge that meets theirs at the normal, at 82 degrees and at grazing.
+Color rough_reflectance(SchlickFresnel const& fresnel, ReflectionMoments const& m);
+Color rough_reflectance(ConductorFresnel const& fresnel, ReflectionMoments const& m);
 
 // Inline: what every evaluation calls.
 

@@ -11,35 +11,35 @@ namespace weft::lobes {
 
 float burley_diffuse_albedo(float roughness, float cos_o) {
     using namespace burley_grid;
-    return interpolate(layer_tables::burley_diffuse, cosines, TableCell(roughness, roughnesses),
-                       TableCell(cosine_coordinate(std::max(cos_o, 0.f)), cosines));
+    return interpolate(layer_tables::burley_diffuse, LinearCell(roughness, roughnesses), cosines,
+                       LinearCell(cosine_coordinate(std::max(cos_o, 0.f)), cosines));
 }
 
 float sheen_albedo(float roughness, float cos_o) {
     using namespace sheen_grid;
-    return interpolate(layer_tables::sheen_albedo, cosines, TableCell(roughness, roughnesses),
-                       TableCell(cosine_coordinate(std::max(cos_o, 0.f)), cosines));
+    return interpolate(layer_tables::sheen_albedo, LinearCell(roughness, roughnesses), cosines,
+                       LinearCell(cosine_coordinate(std::max(cos_o, 0.f)), cosines));
 }
 
 SheenCoefficients sheen_coefficients(float roughness, float cos_o) {
     using namespace sheen_grid;
-    TableCell const row(roughness, roughnesses);
-    TableCell const column(cosine_coordinate(std::max(cos_o, 0.f)), cosines);
-    return {interpolate(layer_tables::sheen_albedo, cosines, row, column),
-            interpolate(layer_tables::sheen_a, cosines, row, column),
-            interpolate(layer_tables::sheen_b, cosines, row, column)};
+    LinearCell const row(roughness, roughnesses);
+    LinearCell const column(cosine_coordinate(std::max(cos_o, 0.f)), cosines);
+    return {interpolate(layer_tables::sheen_albedo, row, cosines, column),
+            interpolate(layer_tables::sheen_a, row, cosines, column),
+            interpolate(layer_tables::sheen_b, row, cosines, column)};
 }
 
 float disney_sheen_albedo(float cos_o) {
-    return interpolate(layer_tables::disney_sheen, TableCell(cos_o, disney_sheen_cosines));
+    return interpolate(layer_tables::disney_sheen, LinearCell(cos_o, disney_sheen_cosines));
 }
 
 float clearcoat_albedo(float alpha, float f0, float cos_o) {
     using namespace clearcoat_grid;
-    TableCell const row(alpha_coordinate(alpha), alphas);
-    TableCell const column(cosine_coordinate(std::max(cos_o, 0.f)), cosines);
-    return f0 * interpolate(layer_tables::clearcoat_white, cosines, row, column) +
-           (1 - f0) * interpolate(layer_tables::clearcoat_grazing, cosines, row, column);
+    LinearCell const row(alpha_coordinate(alpha), alphas);
+    LinearCell const column(cosine_coordinate(std::max(cos_o, 0.f)), cosines);
+    return f0 * interpolate(layer_tables::clearcoat_white, row, cosines, column) +
+           (1 - f0) * interpolate(layer_tables::clearcoat_grazing, row, cosines, column);
 }
 
 } // namespace weft::lobes

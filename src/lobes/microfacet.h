@@ -8,9 +8,7 @@
 //     density of visible normals   D(m) max(0, wo.m) / sigma(wo)
 //     its reflection               D(m) / (4 sigma(wo))
 // and G2 / G1(wo) comes as one quotient: what a sampled visible normal's contribution weighs.
-// G2 correlates heights: 1 / (1 + Lo + Li) above the surface (Heitz 2014, eq. 99) and
-// B(1 + Lo, 1 + Li) across it (Heitz et al. 2016, "Multiple-scattering microfacet BSDFs with the
-// Smith model"; B is the beta function).
+// `Shadowing` says what G2 is.
 //
 // Samplers need not follow visible normals exactly: a distribution draws m with the density
 // D(m) max(0, wo.m) / sampling_area(wo, m, sigma(wo)), or, for lobes that only reflect, with
@@ -21,12 +19,27 @@
 // Left out: light that meets the microsurface more than once.
 #pragma once
 
+#include <cstdint>
+
 #include "base/vec.h"
 
 namespace weft::lobes {
 
+/// What G2, the fraction of facets that both directions see, makes of both directions' own.
+enum class Shadowing : uint8_t {
+    /// G1(wo) G1(wi), as if being seen and being lit were independent (Walter et al. 2007, eq. 23).
+    Separable,
+    /// High facets are both seen and lit: 1 / (1 + Lo + Li) above the surface (Heitz 2014, eq. 99),
+    /// B(1 + Lo, 1 + Li) across it (Heitz et al. 2016, "Multiple-scattering microfacet BSDFs with
+    /// the Smith model"; B is the beta function). Brighter, above all at grazing angles.
+    Correlated
+};
+
 /// G2 / G1(wo) for wi above the surface, in [0, 1]; the sigmas are projected areas.
-inline float shadowing_above(float cos_o, float sigma_o, float cos_i, float sigma_i) {
+inline float shadowing_above(Shadowing shadowing, float cos_o, float sigma_o, float cos_i,
+                             float sigma_i) {
+    if (shadowing == Shadowing::Separable)
+        return sigma_i > 0 ? std::min(cos_i / sigma_i, 1.f) : 0.f;
     float const numerator = sigma_o * cos_i;
     float const denominator = numerator + (sigma_i - cos_i) * cos_o;
     return denominator > 0 ? std::min(numerator / denominator, 1.f) : 0.f;
@@ -50,7 +63,10 @@ inline float scaled_beta(float a, float b) {
 }
 
 /// G2 / G1(wo) for wi below the surface, in [0, 1]; both cosines as absolute values.
-inline float shadowing_across(float cos_o, float sigma_o, float cos_i, float sigma_i) {
+inline float shadowing_across(Shadowing shadowing, float cos_o, float sigma_o, float cos_i,
+                              float sigma_i) {
+    if (shadowing == Shadowing::Separable)
+        return sigma_i > 0 ? std::min(cos_i / sigma_i, 1.f) : 0.f;
     // Beyond 1e5 the value is 0 for all that floats can tell; std::min also takes x / 0.
     float const lambda_o = std::min(std::max(sigma_o - cos_o, 0.f) / cos_o, 1e5f);
     float const lambda_i = std::min(std::max(sigma_i - cos_i, 0.f) / cos_i, 1e5f);
@@ -66,6 +82,7 @@ float widest_alpha(Distribution const& d) {
 
 struct Ggx {
     float alpha_x = 0.1f, alpha_y = 0.1f; ///< along local x and y
+    Shadowing shadowing = Shadowing::Correlated;
 
     /// D(m) per solid angle of the unit normal m; 0 below the horizon.
     float density(Vec3 const& m) const {
@@ -138,6 +155,7 @@ inline float erf_inverse(float x) {
 
 struct Beckmann {
     float alpha_x = 0.1f, alpha_y = 0.1f; ///< along local x and y
+    Shadowing shadowing = Shadowing::Correlated;
 
     /// D(m) per solid angle of the unit normal m; 0 below the horizon.
     float density(Vec3 const& m) const {
@@ -200,5 +218,19 @@ struct Beckmann {
         return x;
     }
 };
+
+/// Calls f(m, share) for n fixed visible normals m, the points of a lattice; the mean of what is
+/// scattered off visible normals is about the sum of that times the shares.
+template <class Distribution, class F>
+void for_visible_normals(Distribution const& d, Vec3 const& wo, float sigma_o, int n, F&& f) {
+    for (int i = 0; i < n; ++i) {
+        // By the golden ratio; what only decides goes by the plastic number.
+        float const turn = 0.61803399f * float(i), spin = 0.75487767f * float(i);
+        float spare = spin - std::floor(spin);
+        Vec2 const u(turn - std::floor(turn), (float(i) + 0.5f) / float(n));
+        Vec3 const m = d.sample_visible_normal(wo, u, spare);
+        f(m, d.sampling_area(wo, m, sigma_o) / (sigma_o * float(n)));
+    }
+}
 
 } // namespace weft::lobes

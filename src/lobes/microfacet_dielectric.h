@@ -1,13 +1,16 @@
 // A rough boundary between two dielectrics: Walter et al. 2007, "Microfacet models for refraction
-// through rough surfaces", with visible-normal sampling and height-correlated shadowing on either
-// side. Reflection and transmission share one microsurface, whose facets share light out as
-// dielectric_boundary.h says, each with a tint of its own. Radiance that crosses is scaled by
-// 1 / eta^2 (see lobe.h).
+// through rough surfaces", with visible-normal sampling. Reflection and transmission share one
+// microsurface, whose facets share light out as dielectric_boundary.h says, each with a tint of its
+// own. Radiance that crosses is scaled by 1 / eta^2 (see lobe.h).
 //
 // Where `compensated`, what single scattering loses comes back by the factor 1 / E(wo), E being
 // the untinted boundary's albedo (Turquin 2019; see microfacet_reflection.h), so that untinted
-// glass of any roughness keeps all light. Tints act once. Boundaries with options get back less
-// where they reflect more than plain ones, and anisotropic ones get back nothing.
+// glass of any roughness keeps all light. Tints act once. E is rounded up by what tables and sums
+// may lack, so that no light is gained.
+//
+// Plain isotropic boundaries look E up in tables. Stretched ones and those with options have too
+// many parameters for that: they add it up over a fixed set of normals, which takes some 20
+// microseconds for each wo.
 //
 // A refracted lobe is about alpha |eta - 1| wide and its half vector about |eta - 1| long. Floats
 // resolve directions to about 1e-7, so that `eta` is kept max(1e-3, 1e-5 / alpha) away from 1
@@ -16,7 +19,6 @@
 
 #include "lobes/albedo.h"
 #include "lobes/dielectric_boundary.h"
-#include "lobes/fresnel_model.h"
 #include "lobes/lobe.h"
 #include "lobes/microfacet.h"
 
@@ -47,7 +49,8 @@ class MicrofacetDielectric {
         LobeValue v = wi.z > 0   ? eval_reflection(wo, wi)
                       : wi.z < 0 ? eval_transmission(wo, wi)
                                  : LobeValue{};
-        if (compensated_ && v.pdf > 0) v.f *= boost_ > 0 ? boost_ : compensation(wo);
+        if (compensated_ && v.pdf > 0)
+            v.f *= boost_.r > 0 ? boost_ : compensation(single_scattering(wo));
         return v;
     }
 
@@ -67,27 +70,22 @@ class MicrofacetDielectric {
         return wi.z < 0 ? wi : Vec3(0);
     }
 
-    Color albedo(Vec3 const& wo) const {
-        return albedo(wo, dielectric_albedo(distribution_, wo, eta_));
-    }
+    Color albedo(Vec3 const& wo) const { return albedo(single_scattering(wo)); }
 
     /// See lobe.h.
     void look_up(Vec3 const& wo) {
-        if (compensated_) boost_ = compensation(wo);
+        if (compensated_) boost_ = compensation(single_scattering(wo));
     }
     Color look_up_albedo(Vec3 const& wo) {
-        DielectricAlbedo const plain = dielectric_albedo(distribution_, wo, eta_);
-        if (compensated_) boost_ = compensation(wo, plain);
-        return albedo(wo, plain);
+        BoundarySplit const once = single_scattering(wo);
+        if (compensated_) boost_ = compensation(once);
+        return albedo(once);
     }
 
   private:
-    Color albedo(Vec3 const& wo, DielectricAlbedo const& plain) const {
-        BoundarySplit const split = rough_split(wo, plain);
-        Color const sum = reflectance_ * split.reflected + transmittance_ * split.transmitted;
-        if (!compensated_) return sum;
-        Color const all = sum * compensation(wo, plain);
-        return min(all, 1);
+    Color albedo(BoundarySplit const& once) const {
+        Color const sum = reflectance_ * once.reflected + transmittance_ * once.transmitted;
+        return compensated_ ? sum * compensation(once) : sum;
     }
     LobeValue eval_reflection(Vec3 const& wo, Vec3 const& wi) const {
         Vec3 const sum = wo + wi;
@@ -102,7 +100,7 @@ class MicrofacetDielectric {
         BoundarySplit const split = tinted(fresnel, cos_o, cos_t);
         float const sigma_o = distribution_.projected_area(wo);
         float const sigma_i = distribution_.projected_area(wi);
-        float const weight = shadowing_above(wo.z, sigma_o, wi.z, sigma_i);
+        float const weight = shadowing_above(distribution_.shadowing, wo.z, sigma_o, wi.z, sigma_i);
         return {split.reflected * (quarter_density * weight / sigma_o),
                 quarter_density / distribution_.sampling_area(wo, h, sigma_o) *
                     reflect_probability(split)};
@@ -123,7 +121,8 @@ class MicrofacetDielectric {
         BoundarySplit const split = tinted(fresnel, cos_o, -cos_i);
         float const sigma_o = distribution_.projected_area(wo);
         float const sigma_i = distribution_.projected_area(wi);
-        float const weight = shadowing_across(wo.z, sigma_o, -wi.z, sigma_i);
+        float const weight =
+            shadowing_across(distribution_.shadowing, wo.z, sigma_o, -wi.z, sigma_i);
         return {split.transmitted * (density * weight / sigma_o),
                 density / distribution_.sampling_area(wo, h, sigma_o) * square(eta_) *
                     (1 - reflect_probability(split))};
@@ -137,35 +136,43 @@ class MicrofacetDielectric {
         float const r = average(split.reflected), t = average(split.transmitted);
         return r > 0 ? r / (r + t) : 0.f;
     }
-    float compensation(Vec3 const& wo) const {
-        return compensation(wo, dielectric_albedo(distribution_, wo, eta_));
+    bool is_tabulated() const {
+        return distribution_.alpha_x == distribution_.alpha_y && !options_.film &&
+               !(options_.reflection_eta > 0);
     }
-    float compensation(Vec3 const& wo, DielectricAlbedo const& plain) const {
-        // Too little is known of anisotropic transmission to rule out that light is gained.
-        if (distribution_.alpha_x != distribution_.alpha_y) return 1;
-        float const all = plain.reflected + plain.transmitted;
-        bool const as_plain = !options_.film && !(options_.reflection_eta > 0);
-        // Where more is reflected than plainly, at most what a mirror keeps is kept.
-        return 1 / (as_plain ? all : std::max(all, white_albedo(distribution_, wo)));
+    /// The fractions that leave after one scattering, untinted.
+    BoundarySplit single_scattering(Vec3 const& wo) const {
+        if (!is_tabulated()) return sum_over_normals(wo);
+        DielectricAlbedo const once = dielectric_albedo(distribution_, wo, eta_);
+        return {Color(once.reflected), Color(once.transmitted)};
     }
-
-    /// What `plain` becomes with the options, untinted. A film's is an estimate from two angles of
-    /// incidence.
-    BoundarySplit rough_split(Vec3 const& wo, DielectricAlbedo const& plain) const {
-        if (options_.film) {
-            Color const r = rough_reflectance(ThinFilmFresnel{options_.film, Color(eta_), Color(0)},
-                                              reflection_moments(distribution_, wo));
-            Color const all(plain.reflected + plain.transmitted);
-            return {r, max(all - r, 0)};
-        }
-        if (options_.reflection_eta > 0) {
-            DielectricAlbedo const other =
-                dielectric_albedo(distribution_, wo, options_.reflection_eta);
-            float const all = plain.reflected + plain.transmitted;
-            return {Color(other.reflected),
-                    Color(std::min(plain.transmitted, std::max(all - other.reflected, 0.f)))};
-        }
-        return {Color(plain.reflected), Color(plain.transmitted)};
+    BoundarySplit sum_over_normals(Vec3 const& wo) const {
+        Distribution const& d = distribution_;
+        float const sigma_o = d.projected_area(wo);
+        BoundarySplit sum;
+        for_visible_normals(d, wo, sigma_o, 377, [&](Vec3 const& m, float share) {
+            float const cos_o = dot(wo, m);
+            if (!(cos_o > 0)) return;
+            float cos_t;
+            float const fresnel = fresnel_dielectric(cos_o, eta_, cos_t);
+            BoundarySplit const split = split_light(options_, eta_, fresnel, cos_o, cos_t);
+            if (Vec3 const r = reflect(wo, m); r.z > 0)
+                sum.reflected +=
+                    split.reflected *
+                    (share * shadowing_above(d.shadowing, wo.z, sigma_o, r.z, d.projected_area(r)));
+            if (!(fresnel < 1)) return;
+            if (Vec3 const t = refract(wo, m, cos_o, cos_t, eta_); t.z < 0)
+                sum.transmitted +=
+                    split.transmitted * (share * shadowing_across(d.shadowing, wo.z, sigma_o, -t.z,
+                                                                  d.projected_area(t)));
+        });
+        return sum;
+    }
+    /// 1 / E, E being rounded up.
+    Color compensation(BoundarySplit const& once) const {
+        float const margin = is_tabulated() ? 1.002f : 1.01f;
+        Color const all = max(min((once.reflected + once.transmitted) * margin, 1), 1e-4f);
+        return {1 / all.r, 1 / all.g, 1 / all.b};
     }
 
     static float resolvable_eta(Distribution const& d, float eta) {
@@ -178,7 +185,7 @@ class MicrofacetDielectric {
     Color reflectance_, transmittance_;
     BoundaryOptions options_;
     bool compensated_;
-    float boost_ = 0; ///< the factor of compensation for the wo of `look_up`; 0: not looked up
+    Color boost_{}; ///< the factor of compensation for the wo of `look_up`; 0: not looked up
 };
 
 template <class D>

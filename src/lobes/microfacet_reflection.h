@@ -34,8 +34,9 @@ struct MicrofacetReflection {
         float const sigma_i = distribution.projected_area(wi);
         float const quarter_density = 0.25f * distribution.density(h);
         if (!(quarter_density > 0)) return {};
-        float const value =
-            quarter_density * shadowing_above(wo.z, sigma_o, wi.z, sigma_i) / sigma_o;
+        float const value = quarter_density *
+                            shadowing_above(distribution.shadowing, wo.z, sigma_o, wi.z, sigma_i) /
+                            sigma_o;
         Color f = reflectance(fresnel, dot(wo, h)) * value;
         if (compensated) f *= compensation(white > 0 ? white : white_albedo(distribution, wo));
         return {f, quarter_density / distribution.reflecting_area(wo, h, sigma_o)};
@@ -46,24 +47,47 @@ struct MicrofacetReflection {
         Vec3 const wi = reflect(wo, m);
         return wi.z > 0 ? normalize(wi) : Vec3(0);
     }
-    Color albedo(Vec3 const& wo) const {
-        if (std::holds_alternative<WhiteFresnel>(fresnel))
-            return Color(compensated ? 1.f : white_albedo(distribution, wo));
-        return albedo(wo, reflection_moments(distribution, wo));
-    }
-    /// The same from the moments for wo.
-    Color albedo(Vec3 const& wo, ReflectionMoments const& m) const {
-        Color const once = rough_albedo(wo, m);
-        return compensated ? once * compensation(m.white) : once;
+    Color albedo(Vec3 const& wo) const { return albedo(wo, white_albedo(distribution, wo)); }
+    /// The same from the white albedo for wo.
+    Color albedo(Vec3 const& wo, float e) const {
+        if (!compensated) return single_scattering(wo, e);
+        if (std::holds_alternative<WhiteFresnel>(fresnel)) return Color(1);
+        return single_scattering(wo, e) * compensation(e);
     }
 
   private:
-    Color rough_albedo(Vec3 const& wo, ReflectionMoments const& m) const {
-        // Dielectrics have tables of their own, up to an index beyond which moments say as much.
-        auto const* const d = std::get_if<DielectricFresnel>(&fresnel);
-        if (d && d->eta <= albedo_grid::index_at(1))
-            return Color(dielectric_reflection(distribution, wo, d->eta));
-        return rough_reflectance(fresnel, m);
+    Color single_scattering(Vec3 const& wo, float e) const {
+        bool const is_white = std::holds_alternative<WhiteFresnel>(fresnel);
+        if (distribution.alpha_x != distribution.alpha_y && !is_white)
+            return mean_over_normals(wo, e);
+        return match(fresnel,
+                     Overloaded{
+                         [&](WhiteFresnel const&) { return Color(e); },
+                         [&](DielectricFresnel const& f) {
+                             return Color(dielectric_albedo(distribution, wo, f.eta).reflected);
+                         },
+                         [&](ThinFilmFresnel const&) { return mean_over_normals(wo, e); },
+                         [&](auto const& f) {
+                             return rough_reflectance(f, reflection_moments(distribution, wo));
+                         },
+                     });
+    }
+    /// What has no table: the mean reflectance of some normals times the white albedo, rounded up
+    /// by what that may lack, so that with the layers below no light is gained.
+    Color mean_over_normals(Vec3 const& wo, float e) const {
+        float const sigma_o = distribution.projected_area(wo);
+        float total = 0;
+        Color sum;
+        for_visible_normals(distribution, wo, sigma_o, 48, [&](Vec3 const& m, float share) {
+            Vec3 const r = reflect(wo, m);
+            if (!(r.z > 0)) return;
+            float const w = share * shadowing_above(distribution.shadowing, wo.z, sigma_o, r.z,
+                                                    distribution.projected_area(r));
+            total += w;
+            sum += reflectance(fresnel, dot(wo, m)) * w;
+        });
+        constexpr float margin = 0.008f;
+        return total > 0 ? min(sum * (e / total) + Color(margin), e) : Color(e);
     }
     Color compensation(float e) const {
         Color const lost = mean_reflectance(fresnel) * (1 - e);
@@ -77,13 +101,8 @@ void look_up(MicrofacetReflection<D>& lobe, Vec3 const& wo) {
 }
 template <class D>
 Color look_up_albedo(MicrofacetReflection<D>& lobe, Vec3 const& wo) {
-    if (std::holds_alternative<WhiteFresnel>(lobe.fresnel)) {
-        look_up(lobe, wo);
-        return lobe.albedo(wo);
-    }
-    ReflectionMoments const m = reflection_moments(lobe.distribution, wo);
-    lobe.white = m.white;
-    return lobe.albedo(wo, m);
+    lobe.white = white_albedo(lobe.distribution, wo);
+    return lobe.albedo(wo, lobe.white);
 }
 
 using GgxReflection = MicrofacetReflection<Ggx>;

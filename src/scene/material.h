@@ -59,7 +59,9 @@ struct RoughConductor {
     static constexpr schema::TypeInfo info{
         .category = "bsdf",
         .type = "roughconductor",
-        .help = "A mirror of microscopic facets: brushed or cast metal."};
+        .help =
+            "A mirror of microscopic facets: brushed or cast metal. As in course scenes: separable "
+            "shadowing (Walter et al. 2007), and light that meets several facets is lost."};
     Input<Color> reflectance{Color(1)};
     Input<float> roughness{0.5f};
     Microfacets distribution = Microfacets::ggx;
@@ -120,7 +122,9 @@ struct RoughDielectric {
     static constexpr schema::TypeInfo info{
         .category = "bsdf",
         .type = "roughdielectric",
-        .help = "A boundary of microscopic facets: frosted glass, ice (Walter et al. 2007)."};
+        .help =
+            "A boundary of microscopic facets: frosted glass, ice (Walter et al. 2007, with its "
+            "separable shadowing). Light that meets several facets is lost."};
     Input<float> ior{1.5f};
     Input<Color> reflectance{Color(1)};
     Input<Color> transmittance{Color(1)};
@@ -150,8 +154,9 @@ struct Principled {
     static constexpr schema::TypeInfo info{
         .category = "bsdf",
         .type = "principled",
-        .help = "Four parameters from plastic to metal: a Lambert lobe under a GGX lobe whose "
-                "Fresnel term divides the light between them.",
+        .help =
+            "Four parameters from plastic to metal: a Lambert lobe under a GGX lobe of separable "
+            "shadowing, whose Fresnel term divides the light between them.",
         .spellings = dialects::kPrincipled};
     Input<Color> base_color{Color(0.8f)};
     Input<float> roughness{0.5f};

@@ -14,6 +14,12 @@ constexpr auto choices(MicrofacetDistribution) {
     return std::array<std::string_view, 3>{"beckmann", "ggx", "ashikhminShirley"};
 }
 
+/// How the shadowing of the two directions goes together: lobes/microfacet.h.
+enum class Shadowing { separable, correlated };
+constexpr auto choices(Shadowing) {
+    return std::array<std::string_view, 2>{"separable", "correlated"};
+}
+
 /// `none`: a dielectric; `artist`: a conductor by `reflectance` and `edgeTint`.
 enum class Metal { none, gold, silver, copper, aluminium, iron, chrome, brass, artist, complex };
 constexpr auto choices(Metal) {
@@ -30,6 +36,7 @@ struct Microfacet {
             "drives highlights, reflections and refractions alike.",
         .example = "<bsdf type=\"microfacet\" metal=\"gold\" roughness=\"0.2\"/>"};
     MicrofacetDistribution distribution = MicrofacetDistribution::beckmann;
+    Shadowing shadowing = Shadowing::separable;
     Metal metal = Metal::none;
     Input<float> roughness{0.3f};
     Input<float> anisotropic{0};
@@ -51,6 +58,10 @@ struct Microfacet {
           {.help =
                "Distribution of the facets' normals: `beckmann` is that of a random height "
                "field, `ggx` has long tails around highlights, `ashikhminShirley` is Phong's."});
+        f("shadowing", shadowing,
+          {.help = "How facets hide each other from light and view: `separable` is Walter's, as if "
+                   "the two were independent; `correlated` by heights (Heitz 2014), as `disney`, "
+                   "and a little brighter at grazing angles."});
         f("metal", metal,
           {.help =
                "A measured metal; `artist`: one by `reflectance` and `edgeTint`; `complex`: one "

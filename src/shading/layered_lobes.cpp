@@ -68,7 +68,8 @@ void LobeBuilder::operator()(scene::Coat const& m, Values const& at) const {
     Frame const around = frame_around(at(m.normal));
     to.bsdf.use_frame(around);
     float const ior = at(m.ior), alpha = this->alpha(at(m.roughness));
-    lobes::GgxReflection const lobe{{alpha, alpha}, lobes::DielectricFresnel{ior}, true};
+    lobes::GgxReflection const lobe{
+        {alpha, alpha, lobes::Shadowing::Correlated}, lobes::DielectricFresnel{ior}, true};
     LobeBuilder coat = *this;
     coat.label = label_of(0);
     Color const reflected = coat.add_layer(Color(w), lobe, around);

@@ -4,6 +4,13 @@
 
 namespace weft::shading {
 
+namespace {
+
+// The materials of course scenes shadow as Walter et al. 2007 do, and give nothing back.
+constexpr auto kCourse = lobes::Shadowing::Separable;
+
+} // namespace
+
 void LobeBuilder::operator()(scene::Diffuse const& m, Values const& at) const {
     Color const albedo = at(m.albedo);
     float const roughness = unit(at(m.roughness));
@@ -16,7 +23,7 @@ void LobeBuilder::operator()(scene::Diffuse const& m, Values const& at) const {
 void LobeBuilder::operator()(scene::Conductor const& m, Values const& at) const {
     if (view.look.least_roughness > 0) {
         float const alpha = this->alpha(0);
-        add(at(m.reflectance), lobes::GgxReflection{{alpha, alpha}});
+        add(at(m.reflectance), lobes::GgxReflection{{alpha, alpha, kCourse}});
     } else {
         add(at(m.reflectance), lobes::SpecularReflection{});
     }
@@ -25,16 +32,16 @@ void LobeBuilder::operator()(scene::Conductor const& m, Values const& at) const 
 void LobeBuilder::operator()(scene::RoughConductor const& m, Values const& at) const {
     float const alpha = this->alpha(at(m.roughness));
     if (m.distribution == scene::Microfacets::ggx)
-        add(at(m.reflectance), lobes::GgxReflection{{alpha, alpha}});
+        add(at(m.reflectance), lobes::GgxReflection{{alpha, alpha, kCourse}});
     else
-        add(at(m.reflectance), lobes::BeckmannReflection{{alpha, alpha}});
+        add(at(m.reflectance), lobes::BeckmannReflection{{alpha, alpha, kCourse}});
 }
 
 void LobeBuilder::operator()(scene::Dielectric const& m, Values const& at) const {
     float const ior = at(m.ior), eta = relative_ior(ior), alpha = this->alpha(0);
     Color const r = at(m.reflectance), t = at(m.transmittance);
     if (view.look.least_roughness > 0 && eta != 1)
-        add(Color(1), lobes::GgxDielectric({alpha, alpha}, eta, r, t));
+        add(Color(1), lobes::GgxDielectric({alpha, alpha, kCourse}, eta, r, t));
     else
         add(Color(1), lobes::SpecularDielectric{eta, r, t});
     to.ior = ior;
@@ -46,9 +53,9 @@ void LobeBuilder::operator()(scene::RoughDielectric const& m, Values const& at) 
     if (eta == 1)
         add(Color(1), lobes::SpecularDielectric{1, r, t});
     else if (m.distribution == scene::Microfacets::ggx)
-        add(Color(1), lobes::GgxDielectric({alpha, alpha}, eta, r, t));
+        add(Color(1), lobes::GgxDielectric({alpha, alpha, kCourse}, eta, r, t));
     else
-        add(Color(1), lobes::BeckmannDielectric({alpha, alpha}, eta, r, t));
+        add(Color(1), lobes::BeckmannDielectric({alpha, alpha, kCourse}, eta, r, t));
     to.ior = ior;
 }
 
@@ -59,7 +66,8 @@ void LobeBuilder::operator()(scene::Principled const& m, Values const& at) const
     float const c = unit(1 - cos_o);
     float const fresnel = at(m.specular) * (f0 + (1 - f0) * c * c * c * c * c);
     add((1 - fresnel) * (1 - metallic) * base, lobes::Lambert{});
-    add(Color(fresnel) + (1 - fresnel) * metallic * base, lobes::GgxReflection{{alpha, alpha}});
+    add(Color(fresnel) + (1 - fresnel) * metallic * base,
+        lobes::GgxReflection{{alpha, alpha, kCourse}});
 }
 
 namespace {
@@ -132,13 +140,16 @@ void LobeBuilder::operator()(scene::Microfacet const& m, Values const& at) const
     if (roughness < kSmooth || (!builder.is_metal && relative_ior(builder.ior) == 1))
         return builder.add_smooth();
     auto const [x, y] = stretched_alphas(roughness, anisotropic);
+    auto const shadowing = m.shadowing == scene::Shadowing::separable
+                               ? lobes::Shadowing::Separable
+                               : lobes::Shadowing::Correlated;
     switch (m.distribution) {
     case scene::MicrofacetDistribution::beckmann:
-        return builder.add_rough(lobes::Beckmann{x, y});
+        return builder.add_rough(lobes::Beckmann{x, y, shadowing});
     case scene::MicrofacetDistribution::ggx:
-        return builder.add_rough(lobes::Ggx{x, y});
+        return builder.add_rough(lobes::Ggx{x, y, shadowing});
     case scene::MicrofacetDistribution::ashikhminShirley:
-        return builder.add_rough(lobes::AshikhminShirley{x, y});
+        return builder.add_rough(lobes::AshikhminShirley{x, y, shadowing});
     }
 }
 

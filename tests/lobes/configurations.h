@@ -85,6 +85,9 @@ reflections(std::string const& name) {
                        a.x == a.y,
                        std::max(1e-4f, 1e-6f / std::min(a.x, a.y)),
                        draws_visible<Distribution>});
+        all.push_back(all.back());
+        all.back().name += " separable";
+        all.back().lobe.distribution.shadowing = Shadowing::Separable;
     }
     int i = 0;
     for (auto const& [fresnel_name, fresnel] : test_fresnels()) {
@@ -92,13 +95,14 @@ reflections(std::string const& name) {
             // All of them with GGX: samples and densities do not depend on them.
             if (!std::is_same_v<Distribution, Ggx> && i % 4 != 3) continue;
             Vec2 const a = i % 3 == 0 ? Vec2(0.5f, 0.1f) : Vec2(0.1f * float(i + 1));
+            auto const shadowing = i % 2 == 0 ? Shadowing::Separable : Shadowing::Correlated;
             all.push_back({name + " " + fresnel_name + (compensated ? " compensated" : ""),
-                           {{a.x, a.y}, fresnel, compensated},
+                           {{a.x, a.y, shadowing}, fresnel, compensated},
                            a.x == a.y,
                            1e-4f,
                            draws_visible<Distribution> && !compensated,
                            !compensated,
-                           compensated ? (a.x == a.y ? 0.01 : 0.02) : 1e-4});
+                           compensated ? (a.x == a.y ? 5e-4 : 2e-3) : 1e-4});
         }
         ++i;
     }
@@ -113,7 +117,9 @@ dielectrics(std::string const& name) {
         Color reflectance{1.f}, transmittance{1.f};
         BoundaryOptions options{};
         bool compensated = false;
+        Shadowing shadowing = Shadowing::Correlated;
     };
+    constexpr auto separable = Shadowing::Separable;
     std::vector<Configuration<MicrofacetDielectric<Distribution>>> all;
     for (Parameters const& p : std::vector<Parameters>{
              {1e-3f, 1e-3f, 1.5f},
@@ -131,6 +137,10 @@ dielectrics(std::string const& name) {
              {0.2f, 0.2f, 1.5f, Color(0.9f, 0.5f, 0.1f), Color(0.2f, 0.3f, 0.7f)},
              {0.2f, 0.2f, 1 / 1.5f, Color(0), Color(1)},
              {0.2f, 0.2f, 1.5f, Color(0), Color(0)},
+             {0.1f, 0.1f, 1.5f, Color(1), Color(1), {}, false, separable},
+             {0.5f, 0.5f, 1 / 1.33f, Color(1), Color(1), {}, false, separable},
+             {0.05f, 0.4f, 1.5f, Color(1), Color(1), {}, false, separable},
+             {0.6f, 0.6f, 1.5f, Color(1), Color(1), {}, true, separable},
              {0.6f, 0.6f, 1.5f, Color(1), Color(1), {}, true},
              {0.3f, 0.6f, 1 / 1.5f, Color(1), Color(1), {}, true},
              {0.2f, 0.2f, 1.3f, Color(1), Color(1), {2}},
@@ -138,8 +148,9 @@ dielectrics(std::string const& name) {
              {0.2f, 0.2f, 1.8f, Color(1), Color(1), {1.3f}},
              {0.2f, 0.2f, 1.5f, Color(1), Color(1), {0, {500, 1.8f}}},
              {0.4f, 0.4f, 1 / 1.5f, Color(1), Color(1), {0, {300, 1.33f, 1.5f}}, true}}) {
-        MicrofacetDielectric<Distribution> const lobe({p.alpha_x, p.alpha_y}, p.eta, p.reflectance,
-                                                      p.transmittance, p.options, p.compensated);
+        MicrofacetDielectric<Distribution> const lobe({p.alpha_x, p.alpha_y, p.shadowing}, p.eta,
+                                                      p.reflectance, p.transmittance, p.options,
+                                                      p.compensated);
         float const width =
             std::min(p.alpha_x, p.alpha_y) * std::min(1.f, std::abs(lobe.eta() - 1));
         // The onset of total reflection by the other index and the fringes of films magnify
@@ -150,7 +161,8 @@ dielectrics(std::string const& name) {
                  " eta " + std::to_string(p.eta) + " tints " + std::to_string(p.reflectance.r) +
                  " " + std::to_string(p.transmittance.r) + " reflection " +
                  std::to_string(p.options.reflection_eta) + " film " +
-                 std::to_string(p.options.film.thickness) + (p.compensated ? " compensated" : ""),
+                 std::to_string(p.options.film.thickness) + (p.compensated ? " compensated" : "") +
+                 (p.shadowing == separable ? " separable" : ""),
              lobe, p.alpha_x == p.alpha_y, options ? 5e-3f : std::max(1e-4f, 1e-6f / width),
              draws_visible<Distribution> && !p.compensated && !options,
              !p.compensated && p.options.reflection_eta <= p.eta, p.compensated ? 0.01 : 1e-4});
@@ -203,13 +215,17 @@ inline std::vector<Configuration<BurleyDiffuse>> test_configurations<BurleyDiffu
     for (float const roughness : {0.f, 0.3f, 0.5f, 0.77f, 1.f})
         all.push_back({.name = "BurleyDiffuse roughness " + std::to_string(roughness),
                        .lobe = {roughness},
-                       .weighs_below_one = false});
+                       .weighs_below_one = false,
+                       .reciprocal = false});
     return all;
 }
 
 template <>
 inline std::vector<Configuration<SubsurfaceDiffuse>> test_configurations<SubsurfaceDiffuse>() {
-    return {{.name = "SubsurfaceDiffuse", .lobe = {{0.4f}}, .weighs_below_one = false}};
+    return {{.name = "SubsurfaceDiffuse",
+             .lobe = {{0.4f}},
+             .weighs_below_one = false,
+             .reciprocal = false}};
 }
 
 template <>

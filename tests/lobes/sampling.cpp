@@ -140,29 +140,39 @@ TEST(SmoothLobes, AlbedoIsWhatLeaves) {
 
 /// The tables over all of their domain that materials use, not at favourite places.
 template <class Distribution>
-void check_tables(char const* name) {
+void check_tables(char const* name, Shadowing shadowing) {
     Rng rng(17);
     AlbedoError reflection, dielectric;
     for (int i = 0; i < 400; ++i) {
-        float const alpha = std::max(square(rng.next()), 1e-3f);
+        float const alpha = std::max(square(square(rng.next())), 1e-3f);
         float const eta = std::exp(rng.next() * 2 - 1); // 0.37 ... 2.72
-        Vec3 const wo = at_angle(degrees(std::acos(std::max(rng.next(), 1e-3f))));
-        MicrofacetReflection<Distribution> const r{{alpha, alpha}};
-        MicrofacetDielectric<Distribution> const d({alpha, alpha}, eta, Color(1, 1, 0),
-                                                   Color(1, 0, 1));
-        reflection.add(r.albedo(wo), quadrature_albedo(r, wo, 1 << 11));
-        dielectric.add(d.albedo(wo), quadrature_albedo(d, wo, 1 << 12));
+        float const u = rng.next(), cos_o = i % 2 ? std::max(u, 0.01f) : std::pow(0.01f, u);
+        Vec3 const wo = at_angle(degrees(std::acos(cos_o)));
+        Distribution const facets{alpha, alpha, shadowing};
+        FacetAlbedo const truth = facet_albedo(facets, wo, eta);
+        DielectricAlbedo const d = dielectric_albedo(facets, wo, eta);
+        reflection.add(Color(white_albedo(facets, wo)), Color(float(truth.white)));
+        dielectric.add({d.reflected, d.transmitted, d.reflected + d.transmitted},
+                       {float(truth.reflected), float(truth.transmitted),
+                        float(truth.reflected + truth.transmitted)});
     }
-    std::printf("%s tables: reflection mean %.4f worst %.3f, dielectric mean %.4f worst %.3f\n",
+    std::printf("%s tables: reflection mean %.1e worst %.1e, dielectric mean %.1e worst %.1e\n",
                 name, reflection.mean(), reflection.worst, dielectric.mean(), dielectric.worst);
-    EXPECT_LE(reflection.mean(), 0.01);
-    EXPECT_LE(dielectric.mean(), 0.01);
+    // What the tables promise, and what the sum over facets leaves. The area of Ashikhmin and
+    // Shirley's distribution is itself interpolated and bends at its nodes.
+    constexpr bool bends = std::is_same_v<Distribution, AshikhminShirley>;
+    EXPECT_LE(reflection.mean(), bends ? 3e-4 : 1e-4);
+    EXPECT_LE(reflection.worst, bends ? 7e-3 : 5e-4);
+    EXPECT_LE(dielectric.mean(), 2e-4);
+    EXPECT_LE(dielectric.worst, bends ? 4e-3 : 2e-3);
 }
 
 TEST(SmoothLobes, AlbedoTablesAreAccurateBetweenNodes) {
-    check_tables<Ggx>("Ggx");
-    check_tables<Beckmann>("Beckmann");
-    check_tables<AshikhminShirley>("AshikhminShirley");
+    for (auto const shadowing : {Shadowing::Separable, Shadowing::Correlated}) {
+        check_tables<Ggx>("Ggx", shadowing);
+        check_tables<Beckmann>("Beckmann", shadowing);
+        check_tables<AshikhminShirley>("AshikhminShirley", shadowing);
+    }
 }
 
 } // namespace
