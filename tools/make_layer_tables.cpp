@@ -1,17 +1,17 @@
 // Writes src/lobes/layer_tables.h: albedos of Burley's lobes, and the fit of the sheen layer, on
 // the grids that the lobes' headers declare. Run it again whenever one of them changes (some
 // minutes):
-//     g++ -std=c++20 -O2 -I/usr/include/Imath -Isrc tools/make_layer_tables.cpp -o
-//     make_layer_tables
-//     ./make_layer_tables > src/lobes/layer_tables.h
+//     g++ -std=c++20 -O3 -pthread -I/usr/include/Imath -Isrc tools/make_layer_tables.cpp -o tables
+//     ./tables > src/lobes/layer_tables.h
+#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "base/hash.h"
-#include "lobes/burley_diffuse.h"
 #include "lobes/clearcoat.h"
 #include "lobes/disney_sheen.h"
 #include "lobes/sheen.h"
@@ -66,7 +66,7 @@ Vec2 hammersley(uint32_t i, uint32_t n) {
 
 template <class L>
 double integrate(L const& lobe, Vec3 const& wo) {
-    constexpr uint32_t n = 1 << 16;
+    constexpr uint32_t n = 1 << 17;
     double sum = 0;
     for (uint32_t i = 0; i < n; ++i) {
         Vec2 const u = hammersley(i, n);
@@ -75,15 +75,6 @@ double integrate(L const& lobe, Vec3 const& wo) {
         if (v.pdf > 0) sum += v.f.g / v.pdf;
     }
     return sum / n;
-}
-
-void write_burley_diffuse() {
-    using namespace burley_grid;
-    Array out("burley_diffuse", size_t(roughnesses) * cosines);
-    for (int r = 0; r < roughnesses; ++r)
-        for (int c = 0; c < cosines; ++c)
-            out.value(integrate(BurleyDiffuse{node(r, roughnesses)},
-                                direction(cosine_at(node(c, cosines)))));
 }
 
 void write_disney_sheen() {
@@ -114,16 +105,30 @@ Vec3d visible_flake(Vec3d const& w, double cross_section, Rng& rng) {
     return normalize(Vec3d(q.x, q.y, cross_section * q.z));
 }
 
-/// Walks through the layer from above; the direction out of its top, or the zero vector.
-Vec3d walk(Vec3d const& wo, double cross_section, Rng& rng) {
+/// Light that leaves the layer's top: where to, and how much.
+struct Returned {
+    Vec3d direction;
+    double weight;
+};
+
+/// Walks through the layer from above and calls f(Returned) at every flight that may leave its top.
+/// Flights never leave: what does so is taken off the weight.
+template <class F>
+void walk(Vec3d const& wo, double cross_section, Rng& rng, F&& f) {
     Vec3d back = wo; // the way the light came from
-    double height = 1;
+    double height = 1, weight = 1;
     for (;;) {
         double const sine2 = back.x * back.x + back.y * back.y;
         double const extinction = std::sqrt(sine2 + std::pow(cross_section * back.z, 2));
-        height -= -std::log(1 - double(rng.next())) / extinction * back.z;
-        if (height < 0) return Vec3d(0);
-        if (height > 1) return -back;
+        double const room = back.z > 0 ? height : 1 - height;
+        double const leaves = std::exp(-extinction * room / std::abs(back.z));
+        if (back.z < 0) f(Returned{-back, weight * leaves});
+        weight *= 1 - leaves;
+        if (weight < 0.1) {
+            if (rng.next() < 0.5f) return;
+            weight *= 2;
+        }
+        height += std::log1p(-double(rng.next()) * (1 - leaves)) / extinction * back.z;
         Vec3d const m = visible_flake(back, cross_section, rng);
         back = normalize(back - m * (2 * dot(back, m)));
     }
@@ -135,20 +140,21 @@ constexpr float kLeastA = 0.05f;
 
 /// In slopes (x, y) / z the lobe is a bivariate Student distribution of 2 degrees of freedom, with
 /// mean (-b / a, 0) and scale 1 / a: expectation maximisation for its two parameters; R is 1.
-SheenCoefficients fit(std::vector<Vec3d> const& directions) {
-    double mean = 0, a2 = 1;
+SheenCoefficients fit(std::vector<Returned> const& all) {
+    double mean = 0, a2 = 1, total = 0;
+    for (Returned const& r : all) total += r.weight;
     for (int iteration = 0; iteration < 300; ++iteration) {
         double weights = 0, weighted = 0, spread = 0;
-        for (Vec3d const& d : directions) {
+        for (auto const& [d, weight] : all) {
             double const x = d.x / d.z, y = d.y / d.z;
-            double const w = 2 / (1 + a2 * (std::pow(x - mean, 2) + y * y));
+            double const distance2 = std::pow(x - mean, 2) + y * y;
+            double const w = 2 * weight / (1 + a2 * distance2);
             weights += w;
             weighted += w * x;
-            spread += w * (std::pow(x - mean, 2) + y * y);
+            spread += w * distance2;
         }
-        double const next_a2 = double(directions.size()) / spread;
-        double const next_mean = weighted / weights;
-        bool const done = std::abs(next_a2 / a2 - 1) + std::abs(next_mean - mean) < 1e-6;
+        double const next_a2 = total / spread, next_mean = weighted / weights;
+        bool const done = std::abs(next_a2 / a2 - 1) + std::abs(next_mean - mean) < 1e-5;
         a2 = next_a2;
         mean = next_mean;
         if (done) break;
@@ -157,27 +163,49 @@ SheenCoefficients fit(std::vector<Vec3d> const& directions) {
     return {1, std::max(float(a), kLeastA), float(-mean * a)};
 }
 
+/// One node: the albedo to a standard error of 5e-4, the shape from the first directions. a is 0
+/// where next to nothing returns.
+SheenCoefficients fit_node(int index) {
+    using namespace sheen_grid;
+    constexpr int least_walks = 1 << 13, most_walks = 1 << 22;
+    constexpr size_t enough = 1 << 14; ///< directions to fit
+    float const roughness = roughness_at(node(index / cosines, roughnesses));
+    Vec3 const wo = direction(cosine_at(node(index % cosines, cosines), roughness));
+    Rng rng{uint64_t(index)};
+    std::vector<Returned> out;
+    double sum = 0, squares = 0, least_weight = 1e-3;
+    int n = 0;
+    for (; n < most_walks; ++n) {
+        double returned = 0;
+        walk(Vec3d(wo.x, wo.y, wo.z), double(square(roughness)), rng, [&](Returned const& r) {
+            returned += r.weight;
+            if (r.weight > least_weight && out.size() < enough) out.push_back(r);
+        });
+        sum += returned;
+        squares += returned * returned;
+        bool const sure = squares - sum * sum / (n + 1) < std::pow(5e-4 * (n + 1), 2);
+        if (n >= least_walks && sure && (out.size() == enough || n >= 1 << 17)) break;
+    }
+    SheenCoefficients k{float(sum / n), 0, 0};
+    if (out.size() > 500) k = fit(out);
+    k.albedo = float(sum / n);
+    return k;
+}
+
 std::vector<SheenCoefficients> fit_sheen() {
     using namespace sheen_grid;
-    constexpr int walks = 1 << 18, most_walks = 1 << 22;
-    constexpr size_t enough = 1 << 13; ///< directions to fit
     std::vector<SheenCoefficients> all(size_t(roughnesses) * cosines);
-    for (int r = roughnesses; r-- > 0;)
-        for (int c = 0; c < cosines; ++c) {
-            double const cross_section = std::pow(std::max(node(r, roughnesses), 0.01f), 2);
-            Vec3 const wo = direction(cosine_at(node(c, cosines)));
-            size_t const index = size_t(r) * cosines + size_t(c);
-            Rng rng(index);
-            std::vector<Vec3d> out;
-            int n = 0;
-            for (; n < walks || (n < most_walks && out.size() < enough); ++n) {
-                Vec3d const d = walk(Vec3d(wo.x, wo.y, wo.z), cross_section, rng);
-                if (d.z > 0) out.push_back(d);
-            }
-            // Where next to nothing returns, it has the shape of the next rougher layer.
-            all[index] = out.size() < 500 ? all[index + cosines] : fit(out);
-            all[index].albedo = float(double(out.size()) / n);
-        }
+    std::atomic<int> next = 0;
+    {
+        std::vector<std::jthread> threads;
+        for (unsigned k = 0; k < std::max(std::thread::hardware_concurrency(), 1u); ++k)
+            threads.emplace_back([&] {
+                for (int i; (i = next++) < int(all.size());) all[size_t(i)] = fit_node(i);
+            });
+    }
+    // Where next to nothing returns, it has the shape of the next rougher layer.
+    for (size_t i = all.size() - cosines; i-- > 0;)
+        if (all[i].a == 0) all[i] = {all[i].albedo, all[i + cosines].a, all[i + cosines].b};
     return all;
 }
 
@@ -201,7 +229,6 @@ int main() {
         "// clang-format off\n"
         "#pragma once\n\n"
         "namespace weft::lobes::layer_tables {\n\n");
-    write_burley_diffuse();
     write_disney_sheen();
     write_clearcoat("clearcoat_white", true);
     write_clearcoat("clearcoat_grazing", false);

@@ -85,7 +85,7 @@ class MicrofacetDielectric {
   private:
     Color albedo(BoundarySplit const& once) const {
         Color const sum = reflectance_ * once.reflected + transmittance_ * once.transmitted;
-        return compensated_ ? sum * compensation(once) : sum;
+        return min(compensated_ ? sum * compensation(once) : sum, 1);
     }
     LobeValue eval_reflection(Vec3 const& wo, Vec3 const& wi) const {
         Vec3 const sum = wo + wi;
@@ -170,7 +170,7 @@ class MicrofacetDielectric {
     }
     /// 1 / E, E being rounded up.
     Color compensation(BoundarySplit const& once) const {
-        float const margin = is_tabulated() ? 1.002f : 1.01f;
+        float const margin = is_tabulated() ? 1.0015f : 1.01f;
         Color const all = max(min((once.reflected + once.transmitted) * margin, 1), 1e-4f);
         return {1 / all.r, 1 / all.g, 1 / all.b};
     }

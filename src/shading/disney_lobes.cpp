@@ -35,7 +35,7 @@ struct DisneyBuilder {
           around(b.frame_around(at(m.normal))) {
         float const anisotropic = at(m.anisotropic);
         auto const [x, y] = stretched_alphas(roughness, anisotropic);
-        facets = {x, y};
+        facets = {x, y, lobes::Shadowing::Correlated};
         if (anisotropic > 0) around = around.turned(2 * kPi * at(m.anisotropic_rotation));
         film = {at(m.thin_film_thickness), at(m.thin_film_ior), b.view.ior_outside};
     }
@@ -56,7 +56,7 @@ struct DisneyBuilder {
         Vec3 const normal = at(m.clearcoat_normal);
         Frame const coat = b.frame_around(normal == Vec3(0) ? at(m.normal) : normal);
         b.to.bsdf.use_frame(coat);
-        float const coat_ior = at(m.clearcoat_ior);
+        float const coat_ior = std::clamp(at(m.clearcoat_ior), 1.f, 3.f);
         lobes::Clearcoat const lobe(std::min(b.alpha(at(m.clearcoat_roughness)), 0.5f), coat_ior);
         layer_over(clearcoat * b.add_layer(Color(clearcoat), lobe, coat));
         Color const through =
@@ -84,22 +84,34 @@ struct DisneyBuilder {
         } else if (below < 0 || below == roughness) {
             b.add(Color(share),
                   lobes::GgxDielectric(facets, eta, specular_tint, base, options, true));
-        } else { // one rough surface reflects, another one refracts
-            float const alpha = b.alpha(below);
-            lobes::Ggx const through{alpha, alpha};
-            b.add(Color(share),
-                  lobes::GgxDielectric(facets, eta, specular_tint, Color(0), options, true));
-            // The surfaces do not share out light by one Fresnel term. So the refraction is scaled
-            // down where both together would scatter more light than arrives.
-            lobes::GgxDielectric const seen(facets, eta, Color(1), Color(0), options, true);
-            lobes::GgxDielectric const lets_pass(through, eta, Color(0), Color(1), options, true);
-            Color const left = rest_of(b.albedo(seen, around)),
-                        wanted = b.albedo(lets_pass, around);
-            auto const fits = [](float l, float w) { return w > l ? l / w : 1.f; };
-            Color const scale(fits(left.r, wanted.r), fits(left.g, wanted.g),
-                              fits(left.b, wanted.b));
-            b.add(share * scale, lobes::GgxDielectric(through, eta, Color(0), base, options, true));
+        } else {
+            add_two_surfaces(share, eta, b.alpha(below), options);
         }
+    }
+
+    /// Glass of which one rough surface reflects and another one refracts. They do not share light
+    /// out by one Fresnel term: what the first leaves is refracted, up to twice of what the second
+    /// would; where that is not enough, as beyond its critical angle, the rest is reflected.
+    void add_two_surfaces(float share, float eta, float alpha_below,
+                          lobes::BoundaryOptions const& options) {
+        lobes::Ggx const through{alpha_below, alpha_below, lobes::Shadowing::Correlated};
+        auto const reflects = [&](Color const& tint) {
+            return lobes::GgxDielectric(facets, eta, tint, Color(0), options, true);
+        };
+        auto const refracts = [&](Color const& tint) {
+            return lobes::GgxDielectric(through, eta, Color(0), tint, options, true);
+        };
+        Color const r = b.albedo(reflects(Color(1)), around);
+        Color const t = b.albedo(refracts(Color(1)), around);
+        auto const each = [](auto const& f, Color const& x, Color const& y) {
+            return Color(f(x.r, y.r), f(x.g, y.g), f(x.b, y.b));
+        };
+        // Short of 1 by what the albedos may lack.
+        auto const ratio = [](float x, float y) { return y > 0 ? 0.998f * x / y : 0.f; };
+        auto const refracted =
+            each([](float x, float y) { return std::min(x, 2 * y); }, rest_of(r), t);
+        b.add(share * each(ratio, rest_of(refracted), r), reflects(specular_tint));
+        b.add(share * each(ratio, refracted, t), refracts(base));
     }
 
     /// Plastic, wood, skin: a dielectric interface over what scatters below.

@@ -17,7 +17,8 @@ inline Vec3 r3(int i) {
 }
 
 template <class L>
-Color quadrature_albedo(L const& lobe, Vec3 const& wo, int samples) {
+Color quadrature_albedo(L lobe, Vec3 const& wo, int samples) {
+    look_up(lobe, wo);
     Vec3d sum(0);
     for (int i = 0; i < samples; ++i) {
         Vec3 const wi = lobe.sample(wo, r3(i));

@@ -34,8 +34,10 @@ TEST_P(SmoothLobeParts, SamplesFollowTheDensity) {
         for (float const angle : kAngles) {
             if (count++ % kParts != GetParam()) continue;
             Vec3 const wo = at_angle(angle);
-            SphereChiSquare test([&](Vec3 const& u) { return c.lobe.sample(wo, u); },
-                                 [&](Vec3 const& wi) { return c.lobe.eval(wo, wi).pdf; });
+            auto lobe = c.lobe;
+            look_up(lobe, wo);
+            SphereChiSquare test([&](Vec3 const& u) { return lobe.sample(wo, u); },
+                                 [&](Vec3 const& wi) { return lobe.eval(wo, wi).pdf; });
             outcomes.push_back(
                 {c.name + " at " + std::to_string(angle), test.run(uint64_t(count), samples)});
         }
@@ -61,8 +63,9 @@ TEST_P(SmoothLobeParts, SamplesFollowTheDensity) {
 
 /// The mean of f eta_scale / pdf over samples, per channel, with its variance.
 template <class L>
-std::array<weft::testing::Estimate, 3> monte_carlo_albedo(L const& lobe, Vec3 const& wo,
-                                                          int samples, uint64_t seed) {
+std::array<weft::testing::Estimate, 3> monte_carlo_albedo(L lobe, Vec3 const& wo, int samples,
+                                                          uint64_t seed) {
+    look_up(lobe, wo);
     Rng rng(seed);
     std::array<std::vector<double>, 3> values;
     for (int i = 0; i < samples; ++i) {

@@ -60,7 +60,8 @@ int cases_per_configuration() {
 template <SmoothLobe L>
 std::string fault(Configuration<L> const& c, Vec3 const& wo, Vec3 const& wi, Vec3 const& u,
                   int& lost) {
-    L const& lobe = c.lobe;
+    L lobe = c.lobe;
+    look_up(lobe, wo);
     LobeValue const any_value = lobe.eval(wo, wi);
     if (!sound(any_value.f) || !sound(any_value.pdf)) return "eval at " + text(wi);
     if (!sound(lobe.albedo(wo)) || max_component(lobe.albedo(wo)) > 1.0001f) return "albedo";

@@ -15,9 +15,12 @@ using namespace weft::testing;
 
 namespace {
 
-/// What tables and fits may be off by: lobes/*.h and tests/lobes/energy.cpp have the figures. Films
-/// over rough glass are estimated from two angles.
-constexpr double kTableError = 0.01, kFilmError = 0.02;
+/// What tables may be off by: `disney` looks GGX up alone, and rounds up what it only estimates.
+/// tests/lobes/energy.cpp has the figures.
+constexpr double kTableError = 5e-4;
+
+/// By which few samples, of which some are rare, seem to pass what is true.
+constexpr double kSampling = 0.01;
 
 constexpr float kCosines[]{1, 0.5f, 0.1f, 0.02f, -1, -0.5f, -0.1f};
 
@@ -38,7 +41,7 @@ bool corner(uint32_t bits, scene::Disney& m) {
     m.sheen_roughness = {next(0, 1)};
     m.clearcoat = {next(0, 1)};
     m.clearcoat_roughness = {next(0, 1)};
-    m.clearcoat_ior = {next(1, 4)};
+    m.clearcoat_ior = {next(1, 3)};
     m.transmission = {next(0, 1)};
     m.transmission_roughness = {next(-1, 1)};
     m.thin_film_thickness = {next(0, 400)};
@@ -48,7 +51,7 @@ bool corner(uint32_t bits, scene::Disney& m) {
     bool const glass = m.transmission.value == 1, metal = m.metallic.value == 1;
     return !(m.sheen.value == 0 && m.sheen_roughness.value == 1) &&
            !(m.clearcoat.value == 0 &&
-             (m.clearcoat_roughness.value == 1 || m.clearcoat_ior.value == 4)) &&
+             (m.clearcoat_roughness.value == 1 || m.clearcoat_ior.value == 3)) &&
            !(!glass && m.transmission_roughness.value == 1) &&
            !(m.thin_film_thickness.value == 0 && m.thin_film_ior.value == 4) &&
            !(metal && (glass || m.specular.value == 1 || m.ior.value > 1));
@@ -73,16 +76,12 @@ scene::Disney random_disney(Rng& rng) {
     m.sheen_roughness = some(1, 0, 1);
     m.clearcoat = some(0.4f, 0, 1);
     m.clearcoat_roughness = some(1, 0, 1);
-    m.clearcoat_ior = {1 + 3 * rng.next()};
+    m.clearcoat_ior = {1 + 2 * rng.next()};
     m.transmission = some(0.4f, 0, 1);
     m.transmission_roughness = {rng.next() < 0.5f ? -1.f : rng.next()};
     m.thin_film_thickness = some(0.3f, 0, 1000);
     m.thin_film_ior = {1 + 2 * rng.next()};
     return m;
-}
-
-double allowed(scene::Disney const& m) {
-    return 1 + (m.thin_film_thickness.value > 0 ? kFilmError : kTableError);
 }
 
 /// One-sided: the probability of a mean this far above `most`, if the truth were `most`.
@@ -126,7 +125,7 @@ TEST(Furnace, DisneyGainsNothingAtAnyCorner) {
         for (float const cosine : kCosines) {
             Vec3 const wo = towards(cosine);
             shading::Shading const s = bench.shade({int32_t(i)}, wo);
-            expect_no_gain(s.bsdf, wo, allowed(corners[i]), 512, i, level,
+            expect_no_gain(s.bsdf, wo, 1 + kSampling, 512, i, level,
                            [&] { return describe(corners[i], cosine); });
         }
 }
@@ -144,10 +143,70 @@ TEST(Furnace, DisneyGainsNothingAnywhere) {
             Vec3 const wo = towards(cosine);
             shading::Shading const s = bench.shade({int32_t(i)}, wo);
             most = std::max(most, double(max_component(s.bsdf.albedo(wo))));
-            expect_no_gain(s.bsdf, wo, allowed(points[i]), 1024, i, level,
+            expect_no_gain(s.bsdf, wo, 1 + kSampling, 1024, i, level,
                            [&] { return describe(points[i], cosine); });
         }
     std::printf("greatest sum of albedos of 1000 disney materials: %.5f\n", most);
+}
+
+/// White and physical parameters: what comes in goes out.
+TEST(Furnace, DisneyLosesLittleWhereNothingAbsorbs) {
+    MaterialBench bench;
+    std::vector<scene::Disney> points;
+    auto const add = [&](float transmission, float roughness, float ior, auto const& change) {
+        scene::Disney m;
+        m.base_color = {Color(1)};
+        m.transmission = {transmission};
+        m.roughness = {roughness};
+        m.ior = {ior};
+        change(m);
+        bench.add(points.emplace_back(m));
+    };
+    for (float const transmission : {0.f, 0.5f, 1.f})
+        for (float const roughness : {0.f, 0.1f, 0.35f, 0.7f, 1.f})
+            for (float const ior : {1.1f, 1.5f, 2.2f}) {
+                add(transmission, roughness, ior, [](auto&) {});
+                add(transmission, roughness, ior, [](auto& m) { m.clearcoat = {1.f}; });
+                add(transmission, roughness, ior, [](auto& m) { m.anisotropic = {0.8f}; });
+                add(transmission, roughness, ior, [](auto& m) { m.sheen = {0.7f}; });
+                add(transmission, roughness, ior, [](auto& m) { m.metallic = {0.6f}; });
+                add(transmission, roughness, ior, [](auto& m) { m.specular = {0.f}; });
+                add(transmission, roughness, ior, [](auto& m) { m.thin_film_thickness = {350.f}; });
+                add(transmission, roughness, ior,
+                    [](auto& m) { m.transmission_roughness = {0.5f}; });
+            }
+    bench.compile();
+    double least = 1, most = 0;
+    for (size_t i = 0; i < points.size(); ++i)
+        for (float const cosine : {1.f, 0.35f, 0.05f, -0.7f, -0.1f}) {
+            if (cosine < 0 && points[i].transmission.value == 0)
+                continue; // nobody looks from there
+            Vec3 const wo = towards(cosine);
+            Color const power = integrated_power(bench.shade({int32_t(i)}, wo).bsdf, wo);
+            EXPECT_GE(min_component(power), 0.97) << describe(points[i], cosine);
+            EXPECT_LE(max_component(power), 1 + kTableError) << describe(points[i], cosine);
+            least = std::min(least, double(min_component(power)));
+            most = std::max(most, double(max_component(power)));
+        }
+    std::printf("%zu white disney materials send out %.5f to %.5f\n", points.size(), least, most);
+}
+
+/// Any parameters, without the noise of samples.
+TEST(Furnace, DisneyGainsNothingToFourDigits) {
+    MaterialBench bench;
+    std::vector<scene::Disney> points;
+    Rng rng(23);
+    for (int i = 0; i < 150; ++i) bench.add(points.emplace_back(random_disney(rng)));
+    bench.compile();
+    double most = 0;
+    for (size_t i = 0; i < points.size(); ++i)
+        for (float const cosine : {0.9f, 0.3f, 0.04f, -0.8f, -0.15f}) {
+            Vec3 const wo = towards(cosine);
+            Color const power = integrated_power(bench.shade({int32_t(i)}, wo).bsdf, wo);
+            EXPECT_LE(max_component(power), 1 + kTableError) << describe(points[i], cosine);
+            most = std::max(most, double(max_component(power)));
+        }
+    std::printf("most of 150 disney materials: %.5f\n", most);
 }
 
 /// The same by `eval` alone, which samples' weights may hide from where sampling never goes.
@@ -168,7 +227,7 @@ TEST(Furnace, EvaluatedPowerGainsNothing) {
         for (float const cosine : {0.9f, 0.3f, -0.6f}) {
             Vec3 const wo = towards(cosine);
             Estimate const e = evaluated_power(bench.shade({int32_t(i)}, wo).bsdf, wo, 4096, i);
-            EXPECT_GE(excess_p_value(e, allowed(points[i])), level)
+            EXPECT_GE(excess_p_value(e, 1 + kSampling), level)
                 << describe(points[i], cosine) << ": " << e.mean;
         }
 }
@@ -243,7 +302,7 @@ TEST(Furnace, WhatIsMadeOfMaterialsGainsNothing) {
     for (size_t i = 0; i < made.size(); ++i)
         for (float const cosine : kCosines) {
             Vec3 const wo = towards(cosine);
-            expect_no_gain(bench.shade(made[i], wo).bsdf, wo, 1 + kTableError, 1024, i, level, [&] {
+            expect_no_gain(bench.shade(made[i], wo).bsdf, wo, 1 + kSampling, 1024, i, level, [&] {
                 return "material " + std::to_string(i) + " at " + std::to_string(cosine);
             });
         }
@@ -267,9 +326,9 @@ TEST(Furnace, HairGainsNothing) {
     for (size_t i = 0; i < hairs.size(); ++i)
         for (float const cosine : {1.f, 0.5f, 0.1f}) {
             Vec3 const wo = towards(cosine, 1.1f);
-            expect_no_gain(
-                bench.shade(hairs[i], wo).bsdf, wo, 1 + kTableError, 1024, i, level,
-                [&] { return "hair " + std::to_string(i) + " at " + std::to_string(cosine); });
+            expect_no_gain(bench.shade(hairs[i], wo).bsdf, wo, 1 + kSampling, 1024, i, level, [&] {
+                return "hair " + std::to_string(i) + " at " + std::to_string(cosine);
+            });
         }
 }
 

@@ -101,6 +101,49 @@ struct ColorSums {
     }
 };
 
+/// The mean of f / density over a Fibonacci lattice of the two numbers that place a direction.
+template <class L>
+Color lattice_power(L const& lobe, Vec3 const& wo) {
+    constexpr int samples = 6765;
+    std::array<double, 3> sum{};
+    for (int i = 0; i < samples; ++i) {
+        double const turn = 0.61803398874989484820 * i;
+        Vec3 const u(float(turn - std::floor(turn)), float((i + 0.5) / samples), 0.5f);
+        Vec3 const wi = lobe.sample(wo, u);
+        lobes::LobeValue const v = wi == Vec3(0) ? lobes::LobeValue{} : lobe.eval(wo, wi);
+        if (!(v.pdf > 0)) continue;
+        float const scale = eta_scale_towards(lobe, wi) / v.pdf;
+        for (int k = 0; k < 3; ++k) sum[size_t(k)] += double(v.f[k] * scale) / samples;
+    }
+    return {float(sum[0]), float(sum[1]), float(sum[2])};
+}
+/// Reflection and refraction each by themselves, so that no number decides between them.
+template <class D>
+Color lattice_power(lobes::MicrofacetDielectric<D> const& l, Vec3 const& wo) {
+    auto const part = [&](Color const& r, Color const& t) {
+        lobes::MicrofacetDielectric<D> one(l.distribution(), l.eta(), r, t, l.options(),
+                                           l.compensated());
+        one.look_up(wo);
+        return is_black(r) && is_black(t) ? Color(0) : lattice_power<decltype(one)>(one, wo);
+    };
+    return part(l.reflectance(), Color(0)) + part(Color(0), l.transmittance());
+}
+/// The sent power without noise: to some 2e-4.
+inline Color integrated_power(lobes::Bsdf const& bsdf, Vec3 const& wo) {
+    Color sum(0);
+    for (int i = 0; i < bsdf.size(); ++i) {
+        Vec3 const o = bsdf.frame(bsdf[i]).to_local(wo);
+        sum += bsdf[i].weight * match(bsdf[i].kind, [&](auto const& lobe) {
+                   using L = std::remove_cvref_t<decltype(lobe)>;
+                   if constexpr (lobes::SmoothLobe<L>)
+                       return lattice_power(lobe, o);
+                   else
+                       return lobe.albedo(o);
+               });
+    }
+    return sum;
+}
+
 /// The sent power by the weights of samples.
 inline Estimate sampled_power(lobes::Bsdf const& bsdf, Vec3 const& wo, int samples, uint64_t seed) {
     Rng rng(seed);
