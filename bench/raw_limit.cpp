@@ -15,36 +15,6 @@ Cost now() {
     return {wall, double(std::clock()) / CLOCKS_PER_SEC};
 }
 
-/// One ray; returns something that depends on the answer.
-uint32_t trace(RTCScene scene, world::RecordedRay const& recorded) {
-    world::Ray const& r = recorded.ray;
-    RTCRay const ray{r.origin.x,
-                     r.origin.y,
-                     r.origin.z,
-                     r.t_min,
-                     r.direction.x,
-                     r.direction.y,
-                     r.direction.z,
-                     r.time,
-                     r.t_max,
-                     ~0u,
-                     0,
-                     0};
-    world::QueryContext context;
-    world::init_context(&context);
-    if (recorded.shadow) {
-        RTCRay query = ray;
-        world::embree_occluded(scene, &context, &query);
-        return query.tfar < 0;
-    }
-    RTCRayHit query;
-    query.ray = ray;
-    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    world::embree_intersect(scene, &context, &query);
-    return query.hit.geomID + query.hit.primID;
-}
-
 } // namespace
 
 Cost replay(world::World const& world, world::RayRecorder const& rays) {
@@ -60,7 +30,7 @@ Cost replay(world::World const& world, world::RayRecorder const& rays) {
             for (size_t from = next[k].fetch_add(chunk); from < list.size();
                  from = next[k].fetch_add(chunk))
                 for (size_t i = from; i < std::min(from + chunk, list.size()); ++i)
-                    mine += trace(world.embree_scene(), list[i]);
+                    mine += world.replay(list[i]);
         }
         sum += mine; // read by nobody, but an atomic store stays
     };

@@ -1,6 +1,7 @@
-// The limit that the ray kernel sets: the rays of a render traced again by Embree alone.
+// The limit that the ray kernel sets: the rays of a render traced again, and nothing else.
 #pragma once
 
+#include "world/ray_recorder.h"
 #include "world/world.h"
 
 namespace weft::bench {
@@ -13,7 +14,7 @@ struct Cost {
 
 /// Traces `rays` with as many threads as the render had, each thread its own rays in their order.
 /// A thread that runs out takes over from the others, a chunk at a time, so that all end together
-/// as those of a render do. Queries are set up as World does, without opacity filters.
+/// as those of a render do. Surfaces of partial opacity are asked for it as in the render.
 Cost replay(world::World const& world, world::RayRecorder const& rays);
 
 /// Adds up cost between its making and `stop`.

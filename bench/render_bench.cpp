@@ -9,7 +9,7 @@ namespace weft::bench {
 
 namespace {
 
-/// Pixel samples whose rays are recorded at most; a path has about ten rays of 36 bytes each.
+/// Pixel samples whose rays are recorded at most; a path has about ten rays of 56 bytes each.
 constexpr double kRecordedSamples = 1 << 21;
 
 Cost keep_best(Cost const& best, Cost const& c) {
@@ -25,9 +25,20 @@ RayCount count_rays(world::RayRecorder const& recorder) {
     for (auto const& list : recorder.lists())
         for (world::RecordedRay const& ray : *list) {
             ++count.all;
-            count.shadow += ray.shadow;
+            count.shadow += ray.query == world::Query::shadow;
         }
     return count;
+}
+
+/// Renders with few enough samples per pixel, and returns how many those are.
+int record_rays(scene::RenderJob const& job, bool compensate, int spp,
+                world::RayRecorder& recorder) {
+    auto const stage = lights::Stage::commit(job.scene, {.recorder = &recorder}, compensate);
+    Vec2i const size = stage->world().camera().size();
+    session::RenderOptions options;
+    options.limits.spp = std::clamp(int(kRecordedSamples / (double(size.x) * size.y)), 1, spp);
+    session::render(*stage, job, options);
+    return options.limits.spp;
 }
 
 } // namespace
@@ -49,21 +60,15 @@ double relative_variance(image::Image const& a, image::Image const& b) {
 RenderFigures measure_render(std::string const& scene_file, world::RayRecorder& recorder,
                              int rounds) {
     scene::RenderJob const job = std::move(io::read_scene_file(scene_file).jobs.front());
-    auto const stage =
-        lights::Stage::commit(job.scene, {}, integrator::combines_strategies(job.integrator));
+    bool const compensate = integrator::combines_strategies(job.integrator);
+    int const spp = session::sample_count(job.sampler);
+    for (auto const& list : recorder.lists()) list->clear();
+    int const recorded_spp = record_rays(job, compensate, spp, recorder);
+    RayCount const rays = count_rays(recorder);
+    auto const stage = lights::Stage::commit(job.scene, {}, compensate);
     world::World const& world = stage->world();
     Vec2i const size = world.camera().size();
     double const pixels = double(size.x) * size.y;
-    int const spp = session::sample_count(job.sampler);
-    int const recorded_spp = std::clamp(int(kRecordedSamples / pixels), 1, spp);
-
-    for (auto const& list : recorder.lists()) list->clear();
-    world.record_rays(&recorder);
-    session::RenderOptions recording;
-    recording.limits.spp = recorded_spp;
-    session::render(*stage, job, recording);
-    world.record_rays(nullptr);
-    RayCount const rays = count_rays(recorder);
 
     Cost render{kInfinity, kInfinity}, kernel = render;
     std::vector<image::Image> images;

@@ -41,4 +41,13 @@ struct AffineT {
 using Affine = AffineT<float>;
 using Affined = AffineT<double>; ///< for composing long chains without losing digits
 
+/// The way between an object's own space and the world, in both directions.
+struct ObjectSpace {
+    Affine to_world, to_object;
+
+    ObjectSpace() = default;
+    /// Inverts before it rounds.
+    explicit ObjectSpace(Affined const& m) : to_world(m), to_object(m.inverse()) {}
+};
+
 } // namespace weft

@@ -7,7 +7,7 @@
 namespace weft {
 
 std::string to_string(SourceLocation const& where) {
-    std::string s = where.file;
+    std::string s = where.file.str();
     if (where.line > 0) s += ":" + std::to_string(where.line);
     if (where.line > 0 && where.column > 0) s += ":" + std::to_string(where.column);
     return s;

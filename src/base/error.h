@@ -7,12 +7,14 @@
 #include <string_view>
 #include <vector>
 
+#include "base/shared_text.h"
+
 namespace weft {
 
 /// A place in a user's file. `line` and `column` count from 1; 0 where there is none (a binary
 /// file, or the file as a whole).
 struct SourceLocation {
-    std::string file;
+    SharedText file;
     int line = 0;
     int column = 0;
 };

@@ -53,6 +53,15 @@ Imath::Vec3<T> normalize(Imath::Vec3<T> const& v) {
 }
 
 inline Vec3 abs(Vec3 const& v) { return {std::abs(v.x), std::abs(v.y), std::abs(v.z)}; }
+/// The smaller and the larger of each component.
+template <class T>
+constexpr Imath::Vec3<T> min(Imath::Vec3<T> const& a, Imath::Vec3<T> const& b) {
+    return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
+}
+template <class T>
+constexpr Imath::Vec3<T> max(Imath::Vec3<T> const& a, Imath::Vec3<T> const& b) {
+    return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
+}
 constexpr float max_component(Vec3 const& v) { return std::max(v.x, std::max(v.y, v.z)); }
 constexpr float min_component(Vec3 const& v) { return std::min(v.x, std::min(v.y, v.z)); }
 inline bool is_finite(Vec3 const& v) {

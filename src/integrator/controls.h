@@ -27,13 +27,15 @@ inline uint32_t light_choices(PathSettings const& settings, PathState const& pat
 
 /// Returns whether the path comes from the camera and shows something else in the object's place.
 inline bool is_matte(PathSettings const& settings, PathState const& path,
-                     world::Object const& object) {
-    return (object.holdout || object.shadow_catcher) && settings.controls && path.bounces() == 0;
+                     world::Model const& model) {
+    return (model.traits.holdout || model.traits.shadow_catcher) && settings.controls &&
+           path.bounces() == 0;
 }
 
 /// Returns how far rays see that leave the object.
-inline float reach_of(PathSettings const& settings, world::Object const& object) {
-    return settings.controls && object.trace_distance > 0 ? object.trace_distance : kInfinity;
+inline float reach_of(PathSettings const& settings, world::Model const& model) {
+    return settings.controls && model.traits.trace_distance > 0 ? model.traits.trace_distance
+                                                                : kInfinity;
 }
 
 /// Returns the controls of a light; null where no light has any, and for -1, which is no light.

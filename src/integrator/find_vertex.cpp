@@ -33,8 +33,10 @@ float fly(Tracer const& t, PathState& path, float limit) {
 
 /// Returns whether the object's boundary cannot be seen: it only encloses a medium, or lies inside
 /// of another object that is there in its place.
-bool is_unseen(PathState const& path, uint32_t index, world::Object const& object) {
-    return object.is_null || (object.has_interior && !path.media.is_visible(index, object.rank));
+bool is_unseen(PathState const& path, world::World const& world, uint32_t object) {
+    world::Model const& model = world.model(object);
+    return model.is_null ||
+           (model.has_interior && !path.media.is_visible(object, world.object(object).rank));
 }
 
 /// Lets the camera see through a hole that the object cuts: black, with the alpha of a background.
@@ -42,7 +44,7 @@ bool is_unseen(PathState const& path, uint32_t index, world::Object const& objec
 /// any such light.
 bool hold_out(Tracer const& t, PathState& path, SurfaceVertex const& surface) {
     Color const through =
-        surface.object.is_see_through ? path.throughput * surface.bsdf().straight() : Color(0);
+        surface.model.is_see_through ? path.throughput * surface.bsdf().straight() : Color(0);
     path.held_out += average(path.throughput - through);
     path.throughput = through;
     film::SampleRecord* const record = t.record();
@@ -57,7 +59,7 @@ bool hold_out(Tracer const& t, PathState& path, SurfaceVertex const& surface) {
 /// Shows the camera what is to be seen in a matte object's place. Returns whether the path goes on
 /// behind it.
 bool show_matte(Tracer const& t, PathState& path, Vertex const& here) {
-    if (here.surface()->object.holdout) return hold_out(t, path, *here.surface());
+    if (here.surface()->model.traits.holdout) return hold_out(t, path, *here.surface());
     if (t.record() && path.bounces() + 1 < t.settings.depth) catch_shadow(t, path, here);
     return true;
 }
@@ -76,13 +78,12 @@ bool find_vertex(Tracer const& t, PathState& path, Vertex& here) {
             add_background(t, path);
             return false;
         }
-        world::Object const& object = t.world.object(hit.object);
-        if (is_unseen(path, hit.object, object)) {
+        if (is_unseen(path, t.world, hit.object)) {
             pass_through(t, path, t.world.surface(path.ray, hit));
             continue;
         }
         SurfaceVertex const& surface = here.move_to_surface(t, path, hit);
-        if (!is_matte(t.settings, path, object)) return true;
+        if (!is_matte(t.settings, path, surface.model)) return true;
         if (!show_matte(t, path, here)) return false;
         pass_through(t, path, surface.point, false);
     }
@@ -101,7 +102,7 @@ void pass_through(Tracer const& t, PathState& path, shading::SurfacePoint const&
 SurfaceVertex const* find_first_surface(Tracer const& t, PathState& path, Vertex& here) {
     while (find_vertex(t, path, here)) {
         SurfaceVertex const* const surface = here.surface();
-        if (!surface || !surface->object.is_see_through) return surface;
+        if (!surface || !surface->model.is_see_through) return surface;
         if (!surface->passes(here.sample(t.stream, path.step, t.settings.by_part))) return surface;
         pass_through(t, path, surface->point);
     }

@@ -8,7 +8,7 @@ namespace weft::integrator {
 
 void cross_boundary(world::World const& world, shading::SurfacePoint const& point,
                     Vec3 const& direction, media::MediumStack& stack) {
-    if (!world.object(point.object).has_interior) return;
+    if (!world.model(point.object).has_interior) return;
     if (dot(direction, point.ng) < 0)
         stack.enter(world.interior(point));
     else
@@ -26,8 +26,9 @@ Color media_transmittance(world::World const& world, world::Ray ray, media::Medi
             through *= media::transmittance(world.medium(medium), std::min(hit.t, ray.t_max));
         if (!hit || is_black(through)) return through;
         shading::SurfacePoint const point = world.surface(ray, hit);
-        world::Object const& object = world.object(hit.object);
-        if (!object.is_null && stack.is_visible(hit.object, object.rank)) return Color(0);
+        if (!world.model(hit.object).is_null &&
+            stack.is_visible(hit.object, world.object(hit.object).rank))
+            return Color(0);
         cross_boundary(world, point, ray.direction, stack);
         Vec3 const origin = shading::offset_origin(point, ray.direction);
         ray.t_max -= dot(origin - ray.origin, ray.direction);
@@ -50,7 +51,7 @@ media::MediumStack media_at(world::World const& world, Vec3 const& p) {
         shading::SurfacePoint const point = world.surface(ray, hit);
         bool const fresh = std::find(seen.begin(), seen.end(), point.object) == seen.end();
         seen.push_back(point.object);
-        if (fresh && world.object(point.object).has_interior && dot(point.ng, ray.direction) > 0)
+        if (fresh && world.model(point.object).has_interior && dot(point.ng, ray.direction) > 0)
             containing.push_back(world.interior(point));
         ray.origin = shading::offset_origin(point, ray.direction);
     }

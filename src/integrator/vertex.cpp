@@ -13,8 +13,8 @@ SurfaceVertex const& Vertex::move_to_surface(Tracer const& tracer, PathState con
     at = {surface.point.p, surface.bsdf().frame().n, light_choices(tracer.settings, path)};
     wo = -path.ray.direction;
     t = surface.point.t;
-    sets = surface.object.sets;
-    reach = reach_of(tracer.settings, surface.object);
+    sets = surface.model.sets;
+    reach = reach_of(tracer.settings, surface.model);
     return surface;
 }
 
@@ -26,7 +26,7 @@ void Vertex::move_into_medium(Tracer const& tracer, PathState const& path, float
           light_choices(tracer.settings, path)};
     wo = -path.ray.direction;
     t = distance;
-    sets = inside.object != UINT32_MAX ? tracer.world.object(inside.object).sets : 0;
+    sets = inside.object != UINT32_MAX ? tracer.world.model(inside.object).sets : 0;
     reach = kInfinity;
 }
 

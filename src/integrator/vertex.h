@@ -47,12 +47,12 @@ class MediumVertex {
 
 /// A point on a surface. It stays where it was made: its BSDF is large.
 struct SurfaceVertex {
-    world::Object const& object;
+    world::Model const& model;
     shading::SurfacePoint point;
     shading::Shading shading; ///< seen from where the path comes from
 
     SurfaceVertex(world::World const& world, PathState const& path, world::Hit const& hit)
-        : object(world.object(hit.object)), point(world.surface(path.ray, hit)),
+        : model(world.model(hit.object)), point(world.surface(path.ray, hit)),
           shading(world.shade(point, -path.ray.direction, path.media, path.look)) {}
     SurfaceVertex(SurfaceVertex const&) = delete;
 
@@ -63,7 +63,7 @@ struct SurfaceVertex {
     }
     /// Returns whether the path passes by the sample `s` as if there were no surface.
     bool passes(lobes::BsdfSample const& s) const {
-        return object.is_see_through && s.scattering.kind == ScatteringKind::Straight;
+        return model.is_see_through && s.scattering.kind == ScatteringKind::Straight;
     }
 };
 
@@ -133,7 +133,7 @@ class Vertex {
     /// Returns whether `eval` may be other than 0.
     bool is_smooth() const { return !surface() || surface()->bsdf().has_smooth(); }
     /// Returns whether the path may go on as if there were no vertex.
-    bool is_see_through() const { return surface() && surface()->object.is_see_through; }
+    bool is_see_through() const { return surface() && surface()->model.is_see_through; }
 
   private:
     static_assert(std::is_trivially_destructible_v<SurfaceVertex>);

@@ -210,27 +210,29 @@ std::vector<Affined> NodeReader::gpu_instances(Object& node) {
 
 void NodeReader::add_instances(Object& node, size_t index, Affined const& to_world) {
     auto const transforms = gpu_instances(node);
+    SourceLocation const where = file_.report().at(node.path());
+    SharedText const name = Object(node).text("name");
     for (Part const& part : mesh(index))
-        for (Affined const& m : transforms) add_instance(part, to_world * m, node);
+        for (Affined const& m : transforms)
+            if (!add_instance(part, to_world * m, where, name))
+                file_.report().warn(node.path(), "has no volume, or more than numbers can hold, "
+                                                 "and its mesh is left out");
 }
 
-void NodeReader::add_instance(Part const& part, Affined const& to_world, Object const& node) {
-    if (!scene::is_invertible(to_world)) {
-        file_.report().warn(node.path(), "has no volume, or more than numbers can hold, and its "
-                                         "mesh is left out");
-        return;
-    }
+bool NodeReader::add_instance(Part const& part, Affined const& to_world,
+                              SourceLocation const& where, SharedText const& name) {
+    if (!scene::is_invertible(to_world)) return false;
     scene::Instance instance;
     instance.shape = part.shape;
     instance.transform = to_world;
-    instance.bsdf = part.surface.bsdf;
-    instance.medium = part.surface.medium;
-    contents_.instances.push_back(scene::add(scene_, scene::InstanceKind{}, instance,
-                                             file_.report().at(node.path()),
-                                             Object(node).text("name")));
+    instance.traits.bsdf = part.surface.bsdf;
+    instance.traits.medium = part.surface.medium;
+    contents_.instances.push_back(
+        scene::add(scene_, scene::InstanceKind{}, std::move(instance), where, name));
     if (part.surface.radiance > 0) contents_.emissive.push_back(contents_.instances.back());
     if (part.surface.is_unlit) contents_.unlit.push_back(contents_.instances.back());
     contents_.radiance = std::max(contents_.radiance, part.surface.radiance);
+    return true;
 }
 
 void NodeReader::add_camera(Object& camera, Affined const& to_world) {

@@ -33,7 +33,9 @@ class NodeReader {
     std::vector<Part> const& mesh(size_t index);
     void add_instances(Object& node, size_t mesh, Affined const& to_world);
     std::vector<Affined> gpu_instances(Object& node);
-    void add_instance(Part const& part, Affined const& to_world, Object const& node);
+    /// Returns false, and adds nothing, where the transform leaves no volume or no numbers.
+    bool add_instance(Part const& part, Affined const& to_world, SourceLocation const& where,
+                      SharedText const& name);
     void add_camera(Object& camera, Affined const& to_world);
     void add_light(Object& light, Affined const& to_world, Object const& node);
 

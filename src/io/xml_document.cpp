@@ -231,7 +231,7 @@ class Builder {
     }
 
     std::string_view text_;
-    std::string name_, folder_;
+    SharedText name_, folder_;
     Includes& includes_;
     std::vector<size_t> line_starts_{0};
 };

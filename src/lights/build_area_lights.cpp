@@ -8,7 +8,7 @@ namespace weft::lights {
 namespace {
 
 /// Whether the triangle is wound clockwise about its vertex normals, which say where the front is.
-bool is_wound_inwards(world::TriangleData const& data, scene::Mesh::Triangle const& t) {
+bool is_wound_inwards(world::MeshData const& data, scene::Mesh::Triangle const& t) {
     auto const& [a, b, c] = t.v;
     if (!data.smooth) return false;
     world::Vertex const &va = data.vertices[a], &vb = data.vertices[b], &vc = data.vertices[c];
@@ -16,21 +16,31 @@ bool is_wound_inwards(world::TriangleData const& data, scene::Mesh::Triangle con
     return (dot(normal, va.n + vb.n + vc.n) < 0) != data.mirrored;
 }
 
-MeshEmitter make_mesh_emitter(world::Object const& object, world::TriangleData const& data) {
-    std::vector<Vec3> positions;
-    positions.reserve(data.vertices.size());
-    for (world::Vertex const& v : data.vertices)
-        positions.push_back(object.instanced ? object.to_world.point(v.p) : v.p);
-    std::vector<MeshEmitter::Triangle> triangles;
-    triangles.reserve(data.source->triangles.size());
-    std::vector<bool> turned;
-    for (auto const& t : data.source->triangles) {
-        triangles.push_back({t.v[0], t.v[1], t.v[2]});
-        turned.push_back(is_wound_inwards(data, t));
+/// A light in the shape of an object.
+struct MakeEmitter {
+    world::Model const& model;
+    Affine to_world;
+
+    Emitter operator()(world::Sphere const&) const { return SphereEmitter(to_world); }
+    Emitter operator()(world::Disk const&) const { return DiskEmitter(to_world); }
+    Emitter operator()(world::TriangleMesh const& mesh) const {
+        world::MeshData const& data = *mesh.data;
+        if (data.is_rectangle) return RectangleEmitter(to_world, model.spread.tangent());
+        std::vector<Vec3> positions;
+        positions.reserve(data.vertices.size());
+        for (world::Vertex const& v : data.vertices)
+            positions.push_back(model.in_world_space ? v.p : to_world.point(v.p));
+        std::vector<MeshEmitter::Triangle> triangles;
+        triangles.reserve(data.source->triangles.size());
+        std::vector<bool> turned;
+        for (auto const& t : data.source->triangles) {
+            triangles.push_back({t.v[0], t.v[1], t.v[2]});
+            turned.push_back(is_wound_inwards(data, t));
+        }
+        return MeshEmitter(std::move(positions), std::move(triangles), data.source->uvs,
+                           to_world.determinant() < 0, std::move(turned));
     }
-    return {std::move(positions), std::move(triangles), data.source->uvs,
-            object.to_world.determinant() < 0, std::move(turned)};
-}
+};
 
 /// Looks at what the surface of a light emits, once all that makes lights is committed.
 class Surveyor {
@@ -145,17 +155,18 @@ void Surveyor::look(E const& emitter) {
 } // namespace
 
 AreaLight LightBuilder::make_area_light(uint32_t index) const {
-    world::Object const& object = world_.object(index);
-    auto make = [&]() -> Emitter {
-        if (object.kind == world::ObjectKind::Sphere) return SphereEmitter(object.to_world);
-        if (object.kind == world::ObjectKind::Disk) return DiskEmitter(object.to_world);
-        if (object.is_rectangle) return RectangleEmitter(object.to_world, object.spread.tangent());
-        return make_mesh_emitter(object, world_.triangles(object));
-    };
+    world::Model const& model = world_.model(index);
     shading::Textures const& textures = world_.textures();
-    bool const uv_alone = within(textures.needs(object.emission) | textures.needs(object.opacity),
-                                 shading::Needs::uv);
-    AreaLight light{make(), object.emission, object.opacity, object.spread, {}, 0, index, uv_alone};
+    bool const uv_alone =
+        within(textures.needs(model.emission) | textures.needs(model.opacity), shading::Needs::uv);
+    AreaLight light{match(model.geometry, MakeEmitter{model, world_.space_of(index).to_world}),
+                    model.emission,
+                    model.opacity,
+                    model.spread,
+                    {},
+                    0,
+                    index,
+                    uv_alone};
     light.extent = std::sqrt(match(light.emitter, [](auto const& e) { return e.area(); }));
     return light;
 }

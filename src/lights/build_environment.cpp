@@ -122,8 +122,8 @@ void LightBuilder::prepare_environment(scene::EnvironmentLight const& light,
 
 bool LightBuilder::is_compensated(scene::LightControls const& controls) const {
     // What shadow catchers catch is found by light sampling alone, too.
-    bool const caught = std::any_of(world_.objects().begin(), world_.objects().end(),
-                                    [](world::Object const& o) { return o.shadow_catcher; });
+    bool const caught = std::any_of(world_.models().begin(), world_.models().end(),
+                                    [](world::Model const& m) { return m.traits.shadow_catcher; });
     return compensate_ && !caught && !is_sampled_alone(controls);
 }
 

@@ -102,7 +102,7 @@ void LightBuilder::link_lights() {
             if (rules.shadow_mask != 0) rules.shadow_mask = world_.shadow_mask(by);
         if (auto const* area = std::get_if<AreaLight>(&light.kind))
             for (RayKind kind : kAllRayKinds)
-                if (!world::is_visible(world_.object(area->object).visibility, kind))
+                if (!world::is_visible(world_.model(area->object).traits.visibility, kind))
                     rules.hide_from(kind);
     }
 }

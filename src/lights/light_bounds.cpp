@@ -4,13 +4,6 @@ namespace weft::lights {
 
 namespace {
 
-Vec3 min(Vec3 const& a, Vec3 const& b) {
-    return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
-}
-Vec3 max(Vec3 const& a, Vec3 const& b) {
-    return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
-}
-
 float angle_between(Vec3 const& a, Vec3 const& b) {
     return std::atan2(length(cross(a, b)), dot(a, b));
 }

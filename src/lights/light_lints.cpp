@@ -101,8 +101,8 @@ void LightLints::count_triangles(AreaLight const& light) {
 
 /// Whether some light passes the surface that was hit.
 bool LightLints::lets_light_through(world::Ray const& ray, world::Hit const& hit) const {
-    world::Object const& o = world_.object(hit.object);
-    if (o.has_alpha || o.is_see_through || o.is_null || o.has_interior) return true;
+    world::Model const& m = world_.model(hit.object);
+    if (m.has_alpha || m.is_see_through || m.is_null || m.has_interior) return true;
     auto const point = world_.surface(ray, hit);
     auto const shading = world_.shade(point, -ray.direction, world_.outside());
     return any(shading.bsdf.sides(), lobes::Sides::Transmission);
@@ -208,7 +208,7 @@ void LightLints::look_at_mirrors() {
                           (float(i / side) + 0.5f) / side * float(size.y));
         world::Ray const ray = world_.camera().ray(raster, Vec2(0.5f), 0.5f);
         world::Hit const hit = world_.intersect(ray, uint32_t(i));
-        if (!hit || world_.object(hit.object).is_null) continue;
+        if (!hit || world_.model(hit.object).is_null) continue;
         auto const shading =
             world_.shade(world_.surface(ray, hit), -ray.direction, world_.outside());
         int mirrored = 0;

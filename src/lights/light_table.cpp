@@ -32,7 +32,7 @@ void LightList::add(LightKind kind, std::span<LightBounds const> leaves,
 LightTable::LightTable(LightList list, shading::Textures textures, world::World const& world)
     : lights_(std::move(list.lights)), first_leaf_(std::move(list.first_leaf)), tree_(list.bounds),
       textures_(std::move(textures)) {
-    if (!world.area_objects().empty()) light_of_object_.assign(world.objects().size(), -1);
+    if (!world.area_objects().empty()) light_of_object_.assign(world.object_count(), -1);
     std::vector<LampScene::Ball> balls;
     size_t const leaves = list.bounds.size();
     if (leaves != lights_.size()) light_of_leaf_.resize(leaves);

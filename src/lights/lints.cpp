@@ -10,15 +10,18 @@ std::vector<std::string> lint_warnings(Stage const& stage, scene::Integrator con
     world::World const& world = stage.world();
     scene::Scene const& scene = world.scene();
     bool emits = stage.lights().size() > 0;
-    for (uint32_t i = 0; i < world.objects().size(); ++i) {
-        world::Object const& o = world.object(i);
-        std::string const at = to_string(location_of(scene, scene::InstanceId{o.source_instance}));
-        emits |= bool(o.emission);
-        if (o.emission && stage.lights().of_object(i) < 0)
-            warnings.push_back(at + ": emits light but is no <light type=\"area\">: only rays "
-                                    "that hit it by chance find it, which is noisy");
-        if (!o.material && !o.emission && !o.is_null && emits)
-            warnings.push_back(at + ": has no <bsdf> and will be black");
+    for (uint32_t i = 0; i < world.object_count(); ++i) {
+        world::Model const& m = world.model(i);
+        auto const at = [&] {
+            return to_string(
+                location_of(scene, scene::InstanceId{world.object(i).source_instance}));
+        };
+        emits |= bool(m.emission);
+        if (m.emission && stage.lights().of_object(i) < 0)
+            warnings.push_back(at() + ": emits light but is no <light type=\"area\">: only rays "
+                                      "that hit it by chance find it, which is noisy");
+        if (!m.traits.bsdf && !m.emission && !m.is_null && emits)
+            warnings.push_back(at() + ": has no <bsdf> and will be black");
     }
     for (std::string& warning : shading::material_warnings(scene))
         warnings.push_back(std::move(warning));

@@ -5,16 +5,7 @@
 
 namespace weft::lights {
 
-namespace {
-
-Vec3 min(Vec3 const& a, Vec3 const& b) {
-    return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
-}
-Vec3 max(Vec3 const& a, Vec3 const& b) {
-    return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
-}
-
-} // namespace
+namespace {} // namespace
 
 MeshEmitter::MeshEmitter(std::vector<Vec3> positions, std::vector<Triangle> triangles,
                          std::vector<Vec2> uvs, bool flip, std::vector<bool> turned)

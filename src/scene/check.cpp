@@ -82,8 +82,9 @@ Facts::Census const& Facts::census(InstanceId id) {
     if (censuses_.size() <= index) censuses_.resize(scene_.instances.size());
     if (censuses_[index].objects >= 0) return censuses_[index];
     Instance const& instance = scene_.instances[index];
-    bool const shines = instance.bsdf && emission_of(scene_.materials[size_t(instance.bsdf.index)]);
-    Census total{1, instance.emission || shines};
+    MaterialId const bsdf = instance.traits.bsdf;
+    bool const shines = bsdf && emission_of(scene_.materials[size_t(bsdf.index)]);
+    Census total{1, instance.traits.emission || shines};
     if (auto const* group = std::get_if<Group>(&scene_.shapes[size_t(instance.shape.index)])) {
         total.objects = 0;
         for (InstanceId member : group->instances) {
@@ -96,9 +97,9 @@ Facts::Census const& Facts::census(InstanceId id) {
 }
 
 void check(Instance const& instance, Facts& facts, Report const& report) {
-    check_name("group", instance.group, report);
-    if (!instance.normal) return;
-    ValueType const type = facts.type_of(instance.normal);
+    check_name("group", instance.traits.group, report);
+    if (!instance.traits.normal) return;
+    ValueType const type = facts.type_of(instance.traits.normal);
     if (type != ValueType::color && type != ValueType::vector3)
         report.fail("normal", "'normal' of <instance> expects a color or a vector3, found a " +
                                   std::string(schema::type_name(type)));

@@ -109,6 +109,7 @@ struct ParameterCheck {
     }
     void operator()(std::string_view, bool, schema::Attr const&) {}
     void operator()(std::string_view, std::string const&, schema::Attr const&) {}
+    void operator()(std::string_view, SharedText const&, schema::Attr const&) {}
     template <class T>
     void operator()(std::string_view name, T const& value, schema::Attr const& attr) {
         expect_in_range(name, value, attr);

@@ -88,15 +88,17 @@ struct Scene {
     std::vector<SourceLocation> light_locations;
     std::vector<SourceLocation> material_locations;
     std::vector<SourceLocation> texture_locations;
-    std::vector<std::string> instance_names; ///< ids; "" where there is none
-    std::vector<std::string> material_names; ///< likewise
+    std::vector<SharedText> instance_names; ///< ids; "" where there is none
+    std::vector<SharedText> material_names; ///< likewise
 };
 
 /// What an object is called: its id in a scene file, its name in a glTF file; "" where it has none.
 template <class Kind>
 std::string_view name_of(Scene const& scene, schema::Id<Kind> id) {
-    auto const name = [&](std::vector<std::string> const& names) {
-        return size_t(id.index) < names.size() ? std::string_view(names[size_t(id.index)]) : "";
+    auto const name = [&](auto const& names) -> std::string_view {
+        if (size_t(id.index) >= names.size()) return "";
+        std::string const& text = names[size_t(id.index)];
+        return text;
     };
     if constexpr (std::is_same_v<Kind, InstanceKind>) return name(scene.instance_names);
     if constexpr (std::is_same_v<Kind, MaterialKind>) return name(scene.material_names);

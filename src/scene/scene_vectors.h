@@ -86,7 +86,7 @@ auto& objects(S& scene) {
 /// Appends an object, where it was written and what it is called, and returns its id.
 template <class Kind, class T>
 schema::Id<Kind> add(Scene& scene, Kind, T&& object, SourceLocation where = {},
-                     std::string name = {}) {
+                     SharedText name = {}) {
     auto& list = objects<Kind>(scene);
     size_t const index = list.size();
     list.push_back(std::forward<T>(object));
@@ -98,11 +98,11 @@ schema::Id<Kind> add(Scene& scene, Kind, T&& object, SourceLocation where = {},
     if constexpr (std::is_same_v<Kind, LightKind>) note(scene.light_locations, where);
     if constexpr (std::is_same_v<Kind, MaterialKind>) {
         note(scene.material_locations, where);
-        note(scene.material_names, name);
+        if (!name.empty()) note(scene.material_names, name);
     }
     if constexpr (std::is_same_v<Kind, InstanceKind>) {
         note(scene.instance_locations, where);
-        note(scene.instance_names, name);
+        if (!name.empty()) note(scene.instance_names, name);
     }
     return {int32_t(index)};
 }

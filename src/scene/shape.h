@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/shared_text.h"
 #include "scene/dialects.h"
 #include "scene/handles.h"
 #include "schema/describe.h"
@@ -100,33 +101,20 @@ struct RayVisibility {
     friend constexpr bool operator==(RayVisibility const&, RayVisibility const&) = default;
 };
 
-namespace dialects {
-inline constexpr std::array kInstances{
-    Spelling{.parameter = "shape",
-             .today = "that is a volume around another shape is that shape today, with a `volume` "
-                      "bsdf and a <volume type=\"constant\">, whose density is per unit of the "
-                      "scene",
-             .rewrite = volume_shape},
-    Spelling{.parameter = "bsdf",
-             .today =
-                 "of type \"volumebsdf\" beside a <medium> is no surface: today the medium has "
-                 "its colour, and the instance no bsdf",
-             .rewrite = albedo_into_medium},
-    Spelling{.parameter = "index",
-             .today = "has no effect: nothing asks for the number of an object"},
-};
-} // namespace dialects
+/// What is seen of a member of a group: what a group hides, its members do not show.
+constexpr RayVisibility inherit(RayVisibility const& outer, RayVisibility const& own) {
+    return {outer.camera && own.camera, outer.diffuse && own.diffuse,
+            outer.glossy && own.glossy, outer.transmission && own.transmission,
+            outer.volume && own.volume, outer.shadow && own.shadow};
+}
 
-struct Instance {
-    static constexpr schema::TypeInfo info{.category = "instance",
-                                           .type = "",
-                                           .help =
-                                               "One shape at one place, with what it is made of.",
-                                           .spellings = dialects::kInstances};
-    ShapeId shape;
+/// All that an instance says of its shape but where it is, in few bytes, as there may be millions.
+/// An instance of a group says it of the members: `inherit` tells how.
+struct InstanceTraits {
+    SharedText sets;
+    SharedText group;
     MaterialId bsdf;
     EmissionId emission;
-    Affined transform;
     TextureId normal;
     Input<float> alpha{1};
     VolumeId volume;
@@ -134,17 +122,12 @@ struct Instance {
     int priority = 0;
     RayVisibility visibility;
     bool holdout = false, shadow_catcher = false;
-    std::string sets;
     float trace_distance = 0;
-    std::string group;
 
     template <class F>
     constexpr void describe(F&& f) {
-        f("shape", shape, {.required = true, .help = "What is put there."});
         f("bsdf", bsdf, {.help = "How its surface scatters light; without one it is black."});
         f("emission", emission, {.help = "Light that it emits."});
-        f("transform", transform,
-          {.help = "From the shape's space to the world; mirroring and shear are welcome."});
         f("normal", normal,
           {.help = "Tangent-space normal map, [0, 1] standing for [-1, 1]; load the image with "
                    "linear=\"true\"."});
@@ -176,6 +159,71 @@ struct Instance {
           {.help = "Light group of what it emits, as of lights; that of a light made of it comes "
                    "first."});
     }
+    friend bool operator==(InstanceTraits const&, InstanceTraits const&) = default;
 };
+
+/// Returns the traits of a member that says `own` in a group whose instance says `outer`. What the
+/// outer instance sets replaces what the member has. But both may hide it, make it a holdout or a
+/// shadow catcher, and put it into sets.
+inline InstanceTraits inherit(InstanceTraits const& outer, InstanceTraits const& own) {
+    InstanceTraits const unset;
+    auto pick = [&](auto InstanceTraits::*member) {
+        return outer.*member != unset.*member ? outer.*member : own.*member;
+    };
+    bool const both_name_sets = !outer.sets.empty() && !own.sets.empty();
+    SharedText const sets = both_name_sets ? SharedText(outer.sets.str() + " " + own.sets.str())
+                                           : pick(&InstanceTraits::sets);
+    return {.sets = sets,
+            .group = pick(&InstanceTraits::group),
+            .bsdf = pick(&InstanceTraits::bsdf),
+            .emission = pick(&InstanceTraits::emission),
+            .normal = pick(&InstanceTraits::normal),
+            .alpha = pick(&InstanceTraits::alpha),
+            .volume = pick(&InstanceTraits::volume),
+            .medium = pick(&InstanceTraits::medium),
+            .priority = pick(&InstanceTraits::priority),
+            .visibility = inherit(outer.visibility, own.visibility),
+            .holdout = outer.holdout || own.holdout,
+            .shadow_catcher = outer.shadow_catcher || own.shadow_catcher,
+            .trace_distance = pick(&InstanceTraits::trace_distance)};
+}
+
+namespace dialects {
+inline constexpr std::array kInstances{
+    Spelling{.parameter = "shape",
+             .today = "that is a volume around another shape is that shape today, with a `volume` "
+                      "bsdf and a <volume type=\"constant\">, whose density is per unit of the "
+                      "scene",
+             .rewrite = volume_shape},
+    Spelling{.parameter = "bsdf",
+             .today =
+                 "of type \"volumebsdf\" beside a <medium> is no surface: today the medium has "
+                 "its colour, and the instance no bsdf",
+             .rewrite = albedo_into_medium},
+    Spelling{.parameter = "index",
+             .today = "has no effect: nothing asks for the number of an object"},
+};
+} // namespace dialects
+
+struct Instance {
+    static constexpr schema::TypeInfo info{.category = "instance",
+                                           .type = "",
+                                           .help =
+                                               "One shape at one place, with what it is made of.",
+                                           .spellings = dialects::kInstances};
+    [[no_unique_address]] InstanceTraits
+        traits; // `shape` takes the bytes that it leaves at its end
+    ShapeId shape;
+    Affined transform;
+
+    template <class F>
+    constexpr void describe(F&& f) {
+        f("shape", shape, {.required = true, .help = "What is put there."});
+        f("transform", transform,
+          {.help = "From the shape's space to the world; mirroring and shear are welcome."});
+        f.group(traits);
+    }
+};
+static_assert(sizeof(Instance) == 160);
 
 } // namespace weft::scene

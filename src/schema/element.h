@@ -15,6 +15,7 @@
 
 #include "base/color.h"
 #include "base/error.h"
+#include "base/shared_text.h"
 
 namespace weft::schema {
 
@@ -36,7 +37,7 @@ struct Element {
     std::vector<Attribute> attributes;
     std::vector<std::unique_ptr<Element>> children;
     SourceLocation where; ///< of the '<'
-    std::string folder;   ///< of the file: what its relative paths start from
+    SharedText folder;    ///< of the file: what its relative paths start from
     TextRange text;
     bool edited = false; ///< whether its tag or attributes differ from the file's
 

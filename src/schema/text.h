@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/shared_text.h"
 #include "schema/describe.h"
 
 namespace weft::schema {
@@ -72,6 +73,15 @@ struct TextForm<std::string> {
     static std::string write(std::string const& v) { return v; }
     static bool read(std::string_view text, std::string& v) {
         v = text;
+        return true;
+    }
+};
+
+template <>
+struct TextForm<SharedText> : TextForm<std::string> {
+    static std::string write(SharedText const& v) { return v.str(); }
+    static bool read(std::string_view text, SharedText& v) {
+        v = SharedText(text);
         return true;
     }
 };

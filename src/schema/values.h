@@ -1,5 +1,5 @@
-// The types that a described parameter may have, beside bool, int, float, std::string, Color,
-// Vec2, Vec3, Affined and enumerations with named choices.
+// The types that a described parameter may have, beside bool, int, float, std::string, SharedText,
+// Color, Vec2, Vec3, Affined and enumerations with named choices.
 #pragma once
 
 #include <array>

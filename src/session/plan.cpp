@@ -85,8 +85,8 @@ uint32_t sample_limit(scene::RenderJob const& job, Limits const& limits) {
 Plan make_plan(lights::Stage const& stage, scene::RenderJob const& job,
                RenderOptions const& options) {
     film::Region const region = region_of(stage.world(), options.picture);
-    film::SceneTags tags = scene_tags(stage);
-    film::Layout layout = make_layout(tags, job, options);
+    film::Layout layout = make_layout(scene_tags(stage), job, options);
+    film::SceneTags tags = scene_tags(stage, layout.aovs());
     int const spp = options.limits.spp;
     return {stage,
             job,

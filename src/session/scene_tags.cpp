@@ -16,24 +16,23 @@ uint16_t group_index(std::vector<std::string>& groups, std::string const& name) 
     return uint16_t(groups.size() - 1);
 }
 
+/// Names the groups of lights, and of objects that emit without being lights.
 void add_light_groups(lights::Stage const& stage, film::SceneTags& tags) {
     world::World const& world = stage.world();
     lights::LightTable const& lights = stage.lights();
-    auto& groups = tags.light_groups;
-    auto const of_object = [&](world::Object const& o) -> uint16_t {
-        if (o.group_instance < 0) return 0;
-        return group_index(groups, world.scene().instances[size_t(o.group_instance)].group);
-    };
     for (size_t i = 0; i < lights.size(); ++i)
-        tags.group_of_light.push_back(group_index(groups, lights[int32_t(i)].controls.group));
-    for (uint32_t i = 0; i < world.statistics().objects; ++i) {
-        world::Object const& o = world.object(i);
-        tags.group_of_object.push_back(of_object(o));
-        int32_t const light = lights.of_object(i);
-        if (light >= 0 && lights[light].controls.group.empty())
-            tags.group_of_light[size_t(light)] = tags.group_of_object.back();
+        tags.group_of_light.push_back(
+            group_index(tags.light_groups, lights[int32_t(i)].controls.group));
+    for (world::Model const& model : world.models())
+        group_index(tags.light_groups, model.traits.group);
+    for (world::AreaObject const& area : world.area_objects()) {
+        int32_t const light = lights.of_object(area.object);
+        if (lights[light].controls.group.empty())
+            tags.group_of_light[size_t(light)] =
+                group_index(tags.light_groups, world.model(area.object).traits.group);
     }
-    if (groups.size() > UINT16_MAX) throw InputError("expected at most 65535 light groups");
+    if (tags.light_groups.size() > UINT16_MAX)
+        throw InputError("expected at most 65535 light groups");
 }
 
 std::string instance_name(scene::Scene const& scene, int32_t instance) {
@@ -45,41 +44,48 @@ std::string instance_name(scene::Scene const& scene, int32_t instance) {
 
 std::string object_name(world::World const& world, uint32_t object) {
     scene::Scene const& scene = world.scene();
-    world::Object const& o = world.object(object);
-    if (o.source_instance == o.root_instance) return instance_name(scene, o.root_instance);
-    return instance_name(scene, o.root_instance) + "/" + instance_name(scene, o.source_instance);
+    int32_t const own = world.object(object).source_instance, root = world.root_instance(object);
+    if (own == root) return instance_name(scene, root);
+    return instance_name(scene, root) + "/" + instance_name(scene, own);
 }
 
 std::string material_name(world::World const& world, uint32_t object) {
     scene::Scene const& scene = world.scene();
-    world::Object const& o = world.object(object);
-    if (!o.material) return "";
-    size_t const index = size_t(o.material.index);
-    if (auto const name = name_of(scene, o.material); !name.empty()) return std::string(name);
+    scene::MaterialId const bsdf = world.model(object).traits.bsdf;
+    if (!bsdf) return "";
+    size_t const index = size_t(bsdf.index);
+    if (auto const name = name_of(scene, bsdf); !name.empty()) return std::string(name);
     return std::string(match(scene.materials[index], [](auto const& m) { return m.info.type; })) +
            "_" + std::to_string(index);
 }
 
-film::SceneTags scene_tags(lights::Stage const& stage) {
+film::SceneTags scene_tags(lights::Stage const& stage, std::span<film::Aov const> aovs) {
     world::World const& world = stage.world();
+    auto const wanted = [&](film::Aov aov) {
+        return std::find(aovs.begin(), aovs.end(), aov) != aovs.end();
+    };
     film::SceneTags tags;
     add_light_groups(stage, tags);
     tags.layers = world.layer_labels();
-    scene::Scene const& scene = world.scene();
-    for (uint32_t i = 0; i < world.statistics().objects; ++i) {
-        world::Object const& o = world.object(i);
-        std::pair<film::Aov, std::string> const names[]{
-            {film::Aov::crypto_object, object_name(world, i)},
-            {film::Aov::crypto_material, material_name(world, i)},
-            {film::Aov::crypto_asset, instance_name(scene, o.root_instance)}};
-        static_assert(std::size(names) == film::kCryptomattes);
-        for (auto const& [aov, name] : names) {
-            film::SceneTags::Cryptomatte& matte = tags.cryptomattes[film::cryptomatte_index(aov)];
+    uint32_t const objects = uint32_t(world.object_count());
+    if (wanted(film::Aov::light_groups))
+        for (uint32_t i = 0; i < objects; ++i)
+            tags.group_of_object.push_back(
+                group_index(tags.light_groups, world.model(i).traits.group));
+    auto const add_ids = [&](film::Aov aov, auto const& name_of_object) {
+        if (!wanted(aov)) return;
+        film::SceneTags::Cryptomatte& matte = tags.cryptomattes[film::cryptomatte_index(aov)];
+        for (uint32_t i = 0; i < objects; ++i) {
+            std::string const name = name_of_object(i);
             uint32_t const id = name.empty() ? 0 : film::cryptomatte_id(name);
             matte.id_of_object.push_back(id);
             if (id != 0) matte.manifest[name] = id;
         }
-    }
+    };
+    add_ids(film::Aov::crypto_object, [&](uint32_t i) { return object_name(world, i); });
+    add_ids(film::Aov::crypto_material, [&](uint32_t i) { return material_name(world, i); });
+    add_ids(film::Aov::crypto_asset,
+            [&](uint32_t i) { return instance_name(world.scene(), world.root_instance(i)); });
     return tags;
 }
 

@@ -6,8 +6,10 @@
 
 namespace weft::session {
 
-/// Returns the names and ids of all things. An asset is called by the id of its outermost instance.
-film::SceneTags scene_tags(lights::Stage const& stage);
+/// Returns the names of light groups and layers, and of objects what `aovs` need: their groups for
+/// `light_groups`, their ids for Cryptomattes. An asset is called by the id of its outermost
+/// instance.
+film::SceneTags scene_tags(lights::Stage const& stage, std::span<film::Aov const> aovs = {});
 /// Returns the id of an object's instance; of a member of a group, after that of the outermost
 /// instance and a slash ("robot/arm").
 std::string object_name(world::World const& world, uint32_t object);

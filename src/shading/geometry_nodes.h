@@ -15,7 +15,7 @@ inline Vec3 unit_or_zero(Vec3 const& v) {
 }
 
 inline Vec3 object_normal(SurfacePoint const& p) {
-    return p.to_world ? unit_or_zero(p.to_world->transposed(p.ns)) : p.ns;
+    return p.space ? unit_or_zero(p.space->to_world.transposed(p.ns)) : p.ns;
 }
 
 inline Vec3 run(nodes::Position const& n, NodeContext const& at) {
@@ -26,8 +26,8 @@ inline Vec3 run(nodes::Normal const& n, NodeContext const& at) {
 }
 inline Vec3 run(nodes::Tangent const& n, NodeContext const& at) {
     Vec3 const tangent = Frame(at.point.ns, at.point.dpdu).s;
-    bool const world = n.space == nodes::Space::world || !at.point.to_object;
-    return world ? tangent : unit_or_zero(at.point.to_object->vector(tangent));
+    bool const world = n.space == nodes::Space::world || !at.point.space;
+    return world ? tangent : unit_or_zero(at.point.space->to_object.vector(tangent));
 }
 inline Vec3 run(nodes::Texcoord const&, NodeContext const& at) {
     return {at.point.uv.x, at.point.uv.y, 0};

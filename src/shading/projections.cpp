@@ -21,7 +21,7 @@ float step_length(SurfacePoint const& p) {
     constexpr float fraction = 5e-4f;
     float const extent = std::sqrt(std::max(length(cross(p.dpdu, p.dpdv)), 0.f));
     if (extent > 0) return fraction * extent;
-    return fraction * (p.to_world ? std::cbrt(std::abs(p.to_world->determinant())) : 1.f);
+    return fraction * (p.space ? std::cbrt(std::abs(p.space->to_world.determinant())) : 1.f);
 }
 
 } // namespace

@@ -1,6 +1,8 @@
 // A point on a surface, as materials see it.
 #pragma once
 
+#include <optional>
+
 #include "base/affine.h"
 #include "base/frame.h"
 #include "scene/mesh.h"
@@ -27,18 +29,19 @@ struct SurfacePoint {
     Vec3 dpdu{0, 0, 0};    ///< change of p with u; 0 where there are no uvs or nothing looks at it
     Vec3 dpdv{0, 0, 0};    ///< change of p with v, likewise
     Vec2 uv{0, 0};
-    UvFootprint footprint;             ///< of the ray that met it; 0 where no texture asks for it
-    float t = 0;                       ///< distance from the ray's origin in units of its direction
-    uint32_t object = 0;               ///< which object of the world
-    uint32_t primitive = 0;            ///< which triangle of it
-    Vec2 barycentric{0, 0};            ///< of the triangle's vertices 1 and 2
-    Affine const* to_world = nullptr;  ///< from the object's space; null: the same
-    Affine const* to_object = nullptr; ///< its inverse
+    UvFootprint footprint;  ///< of the ray that met it; 0 where no texture asks for it
+    float t = 0;            ///< distance from the ray's origin in units of its direction
+    uint32_t object = 0;    ///< which object of the world
+    uint32_t primitive = 0; ///< which triangle of it
+    Vec2 barycentric{0, 0}; ///< of the triangle's vertices 1 and 2
+    float time = 0;         ///< in [0, 1] of the shutter interval
+    /// Of the object; none: the same as the world's, or nothing looks at it.
+    std::optional<ObjectSpace> space;
     VertexAttributes const* attributes = nullptr;
 };
 
 inline Vec3 object_position(SurfacePoint const& s) {
-    return s.to_object ? s.to_object->point(s.p) : s.p;
+    return s.space ? s.space->to_object.point(s.p) : s.p;
 }
 
 /// Tangents around `normal`, as normal maps mean them: s along growing u, t on the side to which v

@@ -26,7 +26,7 @@ RayMask World::shadow_mask(Links const& blockers) const {
     return kShadowMask;
 }
 
-void WorldBuilder::mask_objects() {
+void WorldBuilder::mask_models() {
     for (scene::LightId id : scene_.contents.lights) {
         SourceLocation const where = location_of(scene_, id);
         scene::LightControls const& c =
@@ -40,18 +40,19 @@ void WorldBuilder::mask_objects() {
                                         c.shadowed_by + "'");
         world_.shadow_links_.push_back(links);
     }
-    for (Object& o : world_.objects_) {
-        o.ray_mask = kUnruledMask;
+    for (Model& m : world_.models_) {
+        scene::InstanceTraits const& t = m.traits;
+        scene::RayVisibility const& v = t.visibility;
+        m.ray_mask = kUnruledMask;
         for (RayKind kind : kAllRayKinds)
-            if (is_visible(o.visibility, kind)) o.ray_mask |= mask_of(kind);
-        if (o.visibility.shadow) o.ray_mask |= kShadowMask;
-        if (o.visibility.shadow && o.shadow_catcher) o.ray_mask |= kCatcherMask;
+            if (is_visible(v, kind)) m.ray_mask |= mask_of(kind);
+        if (v.shadow) m.ray_mask |= kShadowMask;
+        if (v.shadow && t.shadow_catcher) m.ray_mask |= kCatcherMask;
         for (size_t i = 0; i < world_.shadow_links_.size(); ++i)
-            if (o.visibility.shadow && world_.shadow_links_[i].accept(o.sets))
-                o.ray_mask |= 1u << (kFirstLinkBit + i);
-        world_.has_controls_ |= o.holdout || o.shadow_catcher;
-        world_.has_controls_ |= o.visibility != scene::RayVisibility{} || o.trace_distance > 0;
-        auto const& v = o.visibility;
+            if (v.shadow && world_.shadow_links_[i].accept(m.sets))
+                m.ray_mask |= 1u << (kFirstLinkBit + i);
+        world_.has_controls_ |= t.holdout || t.shadow_catcher || t.trace_distance > 0;
+        world_.has_controls_ |= v != scene::RayVisibility{};
         world_.has_controls_by_kind_ |=
             v.diffuse != v.glossy || v.diffuse != v.transmission || v.diffuse != v.volume;
     }
@@ -61,7 +62,7 @@ void WorldBuilder::mask_objects() {
         for (RayKind kind : kAllRayKinds)
             if (!(kind == RayKind::camera ? controls.visible_to_camera
                                           : controls.visible_to_secondary))
-                world_.objects_[object].ray_mask &= ~mask_of(kind);
+                world_.models_[world_.object(object).model].ray_mask &= ~mask_of(kind);
     }
 }
 

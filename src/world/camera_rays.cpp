@@ -9,8 +9,10 @@ namespace weft::world {
 
 namespace {
 
-/// The brightness of an aperture image as a density over the square around the lens.
-std::shared_ptr<Distribution2D const> aperture_density(image::Texture const& image) {
+using Images = std::vector<std::shared_ptr<image::Texture const>>;
+
+/// Returns the brightness of an image as a density over the unit square.
+std::shared_ptr<Distribution2D const> density_of(image::Texture const& image) {
     std::vector<float> weights;
     weights.reserve(size_t(image.width) * size_t(image.height));
     for (int y = 0; y < image.height; ++y)
@@ -23,98 +25,107 @@ std::shared_ptr<Distribution2D const> aperture_density(image::Texture const& ima
                                                   uint32_t(image.height));
 }
 
+Aperture aperture_of(scene::ThinLens const& c, Images const& images) {
+    if (c.bokeh.resource >= 0) return ImageAperture{density_of(*images[size_t(c.bokeh.resource)])};
+    if (c.blades >= 3) return BladedAperture{c.blades, radians(c.blade_rotation)};
+    return RoundAperture{};
+}
+
+/// Returns the screen of a camera whose field of view is `fov` degrees.
+Screen screen_of(float fov, scene::FovAxis axis) { return {std::tan(radians(fov) / 2), axis}; }
+
+CameraView view_of(scene::Perspective const& c, Images const&) {
+    return PerspectiveView{screen_of(c.fov, c.fov_axis)};
+}
+CameraView view_of(scene::ThinLens const& c, Images const& images) {
+    Screen const screen = screen_of(c.fov, c.fov_axis);
+    if (!(c.lens_radius > 0)) return PerspectiveView{screen};
+    return ThinLensView{screen, c.lens_radius, c.focal_distance, aperture_of(c, images)};
+}
+CameraView view_of(scene::Orthographic const& c, Images const&) {
+    return OrthographicView{{c.scale, c.fov_axis}};
+}
+CameraView view_of(scene::EnvironmentCamera const&, Images const&) { return EnvironmentView{}; }
+
 } // namespace
 
-CameraRays::CameraRays(scene::Camera const& camera,
-                       std::vector<std::shared_ptr<image::Texture const>> const& images) {
-    auto set_view = [&](scene::Viewpoint const& view, scene::FovAxis axis) {
-        to_world_ = Affine(view.transform);
-        size_ = {view.width, view.height};
-        scale_is_vertical_ = axis == scene::FovAxis::y;
-    };
-    std::visit(Overloaded{
-                   [&](scene::Perspective const& c) {
-                       set_view(c.view, c.fov_axis);
-                       scale_ = std::tan(radians(c.fov) / 2);
-                   },
-                   [&](scene::ThinLens const& c) {
-                       set_view(c.view, c.fov_axis);
-                       scale_ = std::tan(radians(c.fov) / 2);
-                       lens_radius_ = c.lens_radius;
-                       focal_distance_ = c.focal_distance;
-                       blades_ = c.blades;
-                       blade_rotation_ = radians(c.blade_rotation);
-                       if (c.bokeh.resource >= 0)
-                           bokeh_ = aperture_density(*images[size_t(c.bokeh.resource)]);
-                   },
-                   [&](scene::Orthographic const& c) {
-                       set_view(c.view, c.fov_axis);
-                       projection_ = Projection::Orthographic;
-                       scale_ = c.scale;
-                   },
-                   [&](scene::EnvironmentCamera const& c) {
-                       set_view(c.view, scene::FovAxis::x);
-                       projection_ = Projection::Environment;
-                   },
-               },
-               camera);
+Vec2 RoundAperture::sample(Vec2 u) const { return square_to_disk(u); }
+
+Vec2 BladedAperture::sample(Vec2 u) const {
+    // One of the polygon's triangles around the centre, then a point in it.
+    float const slot = u.x * float(blades);
+    float const blade = std::floor(slot);
+    Vec2 const b = square_to_triangle({slot - blade, u.y});
+    float const from = rotation + 2 * kPi * blade / float(blades),
+                to = from + 2 * kPi / float(blades);
+    return {b.x * std::cos(from) + b.y * std::cos(to), b.x * std::sin(from) + b.y * std::sin(to)};
 }
 
-/// Half of a pixel's width on the plane at distance 1, or in an orthographic view anywhere.
-float CameraRays::half_pixel() const {
-    return scale_ / float(scale_is_vertical_ ? size_.y : size_.x);
+Vec2 ImageAperture::sample(Vec2 u) const {
+    Vec2 const p = density->sample(u).p;
+    return {2 * p.x - 1, 2 * p.y - 1};
 }
 
-Vec2 CameraRays::on_screen(Vec2 raster) const {
-    float const w = float(size_.x), h = float(size_.y);
-    float const unit = half_pixel();
+Vec2 Screen::at(Vec2 raster, Vec2i size) const {
+    float const w = float(size.x), h = float(size.y);
+    float const unit = half_pixel(size);
     return {(2 * raster.x - w) * unit, (2 * raster.y - h) * unit};
 }
 
-Vec2 CameraRays::on_lens(Vec2 u) const {
-    if (bokeh_) {
-        Vec2 const p = bokeh_->sample(u).p;
-        return {2 * p.x - 1, 2 * p.y - 1};
-    }
-    if (blades_ < 3) return square_to_disk(u);
-    // One of the polygon's triangles around the centre, then a point in it.
-    float const slot = u.x * float(blades_);
-    float const blade = std::floor(slot);
-    Vec2 const b = square_to_triangle({slot - blade, u.y});
-    float const from = blade_rotation_ + 2 * kPi * blade / float(blades_),
-                to = from + 2 * kPi / float(blades_);
-    return {b.x * std::cos(from) + b.y * std::cos(to), b.x * std::sin(from) + b.y * std::sin(to)};
+CameraRay PerspectiveView::ray(Vec2 raster, Vec2i size, Vec2) const {
+    Vec2 const s = screen.at(raster, size);
+    CameraRay ray;
+    ray.direction = {s.x, s.y, 1};
+    ray.cone.spread = 2 * screen.half_pixel(size) / length(ray.direction);
+    return ray;
+}
+
+CameraRay ThinLensView::ray(Vec2 raster, Vec2i size, Vec2 lens) const {
+    CameraRay ray = PerspectiveView{screen}.ray(raster, size, lens);
+    Vec2 const l = match(aperture, [&](auto const& a) { return a.sample(lens); }) * radius;
+    ray.origin = {l.x, l.y, 0};
+    ray.direction = ray.direction * focal_distance - ray.origin;
+    return ray;
+}
+
+CameraRay OrthographicView::ray(Vec2 raster, Vec2i size, Vec2) const {
+    Vec2 const s = screen.at(raster, size);
+    CameraRay ray;
+    ray.origin = {s.x, s.y, 0};
+    ray.cone.width = 2 * screen.half_pixel(size);
+    return ray;
+}
+
+CameraRay EnvironmentView::ray(Vec2 raster, Vec2i size, Vec2) const {
+    CameraRay ray;
+    ray.direction = uv_to_direction({raster.x / float(size.x), 1 - raster.y / float(size.y)});
+    ray.cone.spread = kPi / float(size.y);
+    return ray;
+}
+
+CameraRays::CameraRays(scene::Camera const& camera, Images const& images) {
+    match(camera, [&](auto const& c) {
+        view_ = view_of(c, images);
+        to_world_ = Affine(c.view.transform);
+        size_ = {c.view.width, c.view.height};
+    });
 }
 
 float CameraRays::depth(Vec3 const& p) const {
     Vec3 const to_p = p - position();
-    if (projection_ == Projection::Environment) return length(to_p);
+    if (std::holds_alternative<EnvironmentView>(view_)) return length(to_p);
     return dot(to_p, normalize(to_world_.vector({0, 0, 1})));
 }
 
 Ray CameraRays::ray(Vec2 raster, Vec2 lens, float time, float footprint_scale) const {
-    Vec3 origin(0), direction(0, 0, 1);
-    RayCone cone;
-    if (projection_ == Projection::Environment) {
-        direction = uv_to_direction({raster.x / float(size_.x), 1 - raster.y / float(size_.y)});
-        cone.spread = kPi / float(size_.y);
-    } else if (Vec2 const s = on_screen(raster); projection_ == Projection::Orthographic) {
-        origin = {s.x, s.y, 0};
-        cone.width = 2 * half_pixel() * length(to_world_.vector({1, 0, 0}));
-    } else {
-        direction = {s.x, s.y, 1};
-        cone.spread = 2 * half_pixel() / length(direction);
-        if (lens_radius_ > 0) {
-            Vec2 const l = on_lens(lens) * lens_radius_;
-            origin = {l.x, l.y, 0};
-            direction = direction * focal_distance_ - origin;
-        }
-    }
+    CameraRay const own = match(view_, [&](auto const& v) { return v.ray(raster, size_, lens); });
     Ray ray;
-    ray.origin = to_world_.point(origin);
-    ray.direction = normalize(to_world_.vector(direction));
+    ray.origin = to_world_.point(own.origin);
+    ray.direction = normalize(to_world_.vector(own.direction));
     ray.time = time;
-    ray.cone = {cone.width * footprint_scale, cone.spread * footprint_scale};
+    // A cone's width grows with the camera's space, its spread does not.
+    float const width = own.cone.width * length(to_world_.vector({1, 0, 0}));
+    ray.cone = {width * footprint_scale, own.cone.spread * footprint_scale};
     // What is nearer than the rounding of the camera's own place cannot be told to be in front.
     ray.t_min = std::max(ray.t_min, kRounding * max_component(abs(ray.origin)));
     return ray;

@@ -26,8 +26,8 @@ namespace weft::world {
 using Corners = uint8_t;
 inline constexpr Corners kAllCorners = 7;
 
-/// The corners of the edge or vertex that a hit is on, or all.
-inline Corners corners_at(Hit const& hit) {
+/// Returns the corners of the edge or vertex that a hit of a triangle is on, or all.
+inline Corners triangle_corners(Hit const& hit) {
     // The kernel's own is half of that; the other half is for the rounding of the third coordinate.
     constexpr float epsilon = 4 * std::numeric_limits<float>::epsilon();
     return Corners((1 - hit.u - hit.v > epsilon ? 1 : 0) | (hit.u > epsilon ? 2 : 0) |

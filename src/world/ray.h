@@ -27,6 +27,7 @@ struct Hit {
     uint32_t object = UINT32_MAX; ///< UINT32_MAX: nothing was hit
     uint32_t primitive = 0;
     float u = 0, v = 0; ///< barycentric coordinates of vertices 1 and 2; x and y of a disk's own
+    float time = 0;     ///< of the ray, in [0, 1] of the shutter interval
     explicit operator bool() const { return object != UINT32_MAX; }
 };
 

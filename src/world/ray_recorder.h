@@ -1,5 +1,6 @@
-// The rays of a render, thread by thread in the order in which they were traced, so that they
-// can be replayed through the kernel alone: what that takes is the limit of any renderer on it.
+// Keeps the rays of a render, thread by thread in the order in which they were traced.
+// `World::replay` traces them again: the time that takes is the limit of any renderer on this
+// kernel.
 #pragma once
 
 #include <atomic>
@@ -8,20 +9,32 @@
 #include <mutex>
 #include <vector>
 
+#include "shading/materials.h"
 #include "world/ray.h"
 
 namespace weft::world {
 
+/// What a ray asks of the world.
+enum class Query : uint8_t {
+    closest,  ///< World::intersect
+    passable, ///< World::intersect_passable
+    solid,    ///< World::intersect_solid
+    shadow,   ///< World::visibility
+};
+
 struct RecordedRay {
     Ray ray;
-    bool shadow;
+    Query query = Query::closest;
+    shading::Look look;      ///< of a shadow ray
+    uint32_t alpha_seed = 0; ///< of the others: decides which partly transparent surfaces they meet
 };
 
 class RayRecorder {
   public:
-    void record(Ray const& ray, bool shadow) { mine().push_back({ray, shadow}); }
+    /// Appends to the list of the calling thread.
+    void record(RecordedRay const& ray) { mine().push_back(ray); }
 
-    /// One list per thread that has traced.
+    /// Returns one list per thread that has traced. Only while no thread records.
     std::vector<std::unique_ptr<std::vector<RecordedRay>>> const& lists() const { return lists_; }
 
   private:

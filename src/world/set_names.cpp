@@ -16,6 +16,7 @@ std::vector<std::string> split(std::string const& text) {
 } // namespace
 
 uint64_t SetNames::declare(std::string const& names, SourceLocation const& where) {
+    if (names.empty()) return 0;
     uint64_t bits = 0;
     for (std::string const& name : split(names)) {
         if (name[0] == '-')

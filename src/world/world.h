@@ -1,10 +1,11 @@
 // The committed geometry of a scene and what its surfaces look like, immutable and shared by all
 // threads. Lights are built over it (lights/stage.h).
 //
-// Geometry is a list of *objects*: one shape at one place. Groups are opened when the world is
-// made. An object whose mesh is used only once is stored in world space; meshes used several
-// times are stored once and instanced. Spheres and disks are Embree's where their transform keeps
-// them round, and instances of the unit sphere and disk elsewhere.
+// An *object* is one shape at one place; groups are opened when the world is made. All objects of
+// one geometry and the same traits share a *model*, so an object itself takes 16 bytes. A mesh that
+// is used only once is stored in world space; meshes used several times are stored once and
+// instanced. Spheres and disks are Embree's where their transform keeps them round, and instances
+// of the unit sphere and disk elsewhere.
 #pragma once
 
 #include <memory>
@@ -20,77 +21,68 @@
 #include "shading/textures.h"
 #include "world/camera_rays.h"
 #include "world/embree.h"
+#include "world/geometry.h"
 #include "world/ray.h"
 #include "world/ray_recorder.h"
 #include "world/set_names.h"
 
 namespace weft::world {
 
-/// Half a cache line: a hit reads three of these from anywhere in memory.
-struct alignas(32) Vertex {
-    Vec3 p{0, 0, 0};
-    float u = 0;
-    Vec3 n{0, 0, 0}; ///< of any length, to be interpolated
-    float v = 0;
-};
-
-/// A triangle mesh as the render reads it, in the space of its object.
-struct TriangleData {
-    std::vector<Vertex> vertices;
-    std::shared_ptr<scene::Mesh const> source; ///< indices
-    shading::VertexAttributes attributes;      ///< what nodes ask for
-    bool smooth = false;                       ///< has normals
-    bool has_uvs = false;
-    bool mirrored = false; ///< counter-clockwise is the back
-};
-
-enum class ObjectKind : uint8_t { Mesh, Sphere, Disk };
-
-struct Object {
-    ObjectKind kind = ObjectKind::Mesh;
-    bool instanced = false; ///< hits are in the object's own space
+/// A geometry and all that its surface looks like. What every ray asks for comes first, within a
+/// cache line.
+struct alignas(64) Model {
+    Geometry geometry = Sphere{};
+    bool instanced = false;      ///< the kernel has it in its own space
+    bool in_world_space = false; ///< its own space is the world's: a mesh that stands there alone
     bool has_alpha = false;
     /// The material itself lets light straight through in parts. Not where light also goes inside,
     /// since the medium stack then has a say.
     bool is_see_through = false;
-    bool has_tangents = false; ///< something looks at the direction of growing u
-    int32_t triangles = -1;    ///< index of the TriangleData
-    scene::MaterialId material;
+    bool has_interior = false;       ///< crossing its surface changes the medium stack
+    bool is_null = false;            ///< no surface: rays pass straight on
+    bool needs_tangents = false;     ///< something looks at dpdu and dpdv of its points
+    bool needs_object_space = false; ///< something looks at more of its points than uv
+    int32_t medium = -1;             ///< what fills it; -1: nothing
+    uint64_t sets = 0;               ///< that it belongs to, as bits
+
+    scene::InstanceTraits traits; ///< those of groups that it is a member of included
     shading::Emission emission;
     shading::Spread spread; ///< of the emission
-    scene::TextureId normal_map;
     shading::Opacity opacity;
     scene::Input<float> ior{1}; ///< of its inside
-    int32_t medium = -1;        ///< what fills it
-    int32_t priority = 0;       ///< as the user gave it
-    int32_t rank = 0; ///< among all with an interior: the higher is there where they overlap
-    bool has_interior = false; ///< crossing its surface changes the medium stack
-    bool is_null = false;      ///< no surface: rays pass straight on
-    /// Another object's inside may lie over its boundary, which is then not seen.
-    bool may_be_hidden = false;
-
-    /// Whether only the medium stack can say if light passes.
-    bool is_passable() const { return is_null || may_be_hidden; }
-    /// Whether rays may go on behind it without a vertex.
-    bool needs_filter() const { return has_alpha || is_see_through || is_passable(); }
-    Affine to_world, to_object;
-    bool is_rectangle = false;    ///< a mesh of two triangles that lights know as one
-    int32_t source_instance = -1; ///< of the scene
-    int32_t root_instance = -1;   ///< the outermost one, of which it is a member
-    int32_t group_instance = -1;  ///< the one that names its light group; -1: none
-    scene::RayVisibility visibility;
-    RayMask ray_mask = ~0u;                       ///< bits of the rays that meet it
-    uint64_t sets = 0;                            ///< that it belongs to, as bits
-    float trace_distance = 0;                     ///< how far rays that leave it see; 0: no limit
-    bool holdout = false, shadow_catcher = false; ///< what the camera sees in its place
+    RayMask ray_mask = ~0u;     ///< bits of the rays that meet it
 };
 
-/// Whether rays of a kind meet objects of visibility `v`.
+/// A model at a place.
+struct Object {
+    uint32_t model;          ///< its index
+    int32_t source_instance; ///< of the scene
+    /// Among all with an interior: the higher is there where they overlap.
+    int32_t rank = 0;
+    /// Index of what a group made of it; none: the scene lists the instance itself.
+    uint32_t member : 31 = kNoMember;
+    /// Whether another object's inside may lie over its boundary, which is then not seen.
+    uint32_t may_be_hidden : 1 = 0;
+
+    static constexpr uint32_t kNoMember = 0x7fffffff;
+};
+static_assert(sizeof(Object) == 16);
+
+/// Where an object stands that is the member of a group.
+struct GroupMember {
+    Affined to_world;
+    int32_t root_instance; ///< of the scene: the outermost one, of which it is a member
+};
+
+/// Returns whether rays of a kind meet what has the visibility `v`.
 bool is_visible(scene::RayVisibility const& v, RayKind kind);
 
 struct CommitOptions {
     std::string isa;  ///< Embree's kernels: "sse2", "avx2", "avx512"; "" is the best there is
     Vec2i size{0, 0}; ///< of the picture, instead of the scene's; 0: the scene's
+    /// Receives every ray that the world traces, for `World::replay`; null: none. Outlives the
+    /// world.
+    RayRecorder* recorder = nullptr;
 };
 
 /// Counts for `weft info`.
@@ -113,109 +105,129 @@ class World {
     World(World const&) = delete;
     World& operator=(World const&) = delete;
 
-    /// The closest hit in (0, t_max). Surfaces of partial opacity are met with that probability,
-    /// decided by `alpha_seed` alone.
+    /// Returns the closest hit in (0, t_max). A surface of partial opacity is met with that
+    /// probability, which `alpha_seed` alone decides.
     Hit intersect(Ray const& ray, uint32_t alpha_seed = 0) const;
-    /// The closest hit, where every surface is there as a whole.
+    /// Returns the closest hit as if every surface were opaque.
     Hit intersect_solid(Ray const& ray) const;
-    /// The closest boundary that `visibility` looks through, by its opacity as for `intersect`.
-    /// For rays that `visibility` is not 0 for.
+    /// Returns the closest boundary that `visibility` looks through, by its opacity as for
+    /// `intersect`. For rays whose `visibility` is not 0.
     Hit intersect_passable(Ray const& ray, uint32_t alpha_seed) const;
-    /// The part of light that gets through the surfaces along the ray up to t_max: 0 behind an
-    /// opaque surface, the product of (1 - opacity) + opacity * (what the material lets straight
-    /// through) elsewhere. Passable boundaries are not seen.
+    /// Returns the part of light that gets through the surfaces along the ray up to t_max: 0 behind
+    /// an opaque surface, the product of (1 - opacity) + opacity * (what the material lets straight
+    /// through) elsewhere. Passable boundaries count as not there.
     Color visibility(Ray const& ray, shading::Look const& look = {}) const;
+    /// Traces a ray again that a render has recorded. Returns a number that depends on the answer,
+    /// so that no compiler leaves the work out.
+    uint32_t replay(RecordedRay const& ray) const;
 
+    /// Returns the point of the surface that a ray has met.
     shading::SurfacePoint surface(Ray const& ray, Hit const& hit) const;
     /// Returns emission and lobes at `point` towards unit `wo`, seen from within `stack`.
     shading::Shading shade(shading::SurfacePoint const& point, Vec3 const& wo,
                            media::MediumStack const& stack, shading::Look const& look = {}) const;
-    /// The point of an object that is nearest to `p` on it: of the triangle `primitive`, where it
-    /// is a mesh. Seen from unit `wo`.
+    /// Returns the point of an object that is nearest to `p`, a place on it: of the triangle
+    /// `primitive`, where it is a mesh. Seen from unit `wo`.
     shading::SurfacePoint point_near(uint32_t object, uint32_t primitive, Vec3 const& p,
                                      Vec3 const& wo) const;
-    /// Emission alone, towards `wo`.
+    /// Returns the emission alone, towards `wo`.
     Color emission(shading::SurfacePoint const& point, Vec3 const& wo) const;
 
+    size_t object_count() const { return objects_.size(); }
+    /// `index`: as hits and surface points have it, below `object_count()`.
     Object const& object(uint32_t index) const { return objects_[index]; }
-    std::span<Object const> objects() const { return objects_; }
-    TriangleData const& triangles(Object const& mesh) const {
-        return triangles_[size_t(mesh.triangles)];
+    /// Returns what the object `index` looks like.
+    Model const& model(uint32_t index) const { return models_[objects_[index].model]; }
+    std::span<Model const> models() const { return models_; }
+    /// Returns where the object `index` stands: from its own space to the world.
+    Affined const& transform(uint32_t index) const;
+    /// Returns the same both ways, in the numbers that rays are traced with.
+    ObjectSpace space_of(uint32_t index) const { return ObjectSpace(transform(index)); }
+    /// Returns the instance of the scene that the object `index` is, or is a member of.
+    int32_t root_instance(uint32_t index) const;
+    /// Returns whether only the medium stack can say if light passes the object `index`.
+    bool is_passable(uint32_t index) const {
+        return model(index).is_null || objects_[index].may_be_hidden;
     }
-    /// Those of one light of the scene stand side by side.
+    /// Returns the objects that area lights hold, those of one light side by side.
     std::span<AreaObject const> area_objects() const { return area_objects_; }
     /// Makes an object emit `factor` times as much, for the light that holds it and has a power.
-    void scale_emission(uint32_t object, float factor) { objects_[object].emission.tint *= factor; }
-    /// What is inside of the object whose surface `point` is on.
+    void scale_emission(uint32_t object, float factor) {
+        models_[objects_[object].model].emission.tint *= factor;
+    }
+    /// Returns what is inside of the object whose surface `point` is on.
     media::Interior interior(shading::SurfacePoint const& point) const;
     media::Medium const& medium(int32_t index) const { return media_[size_t(index)]; }
-    /// What surrounds the camera.
+    /// Returns what surrounds the camera.
     media::MediumStack outside() const { return outside_; }
-    /// Whether straight lines may cross media or passable boundaries.
+    /// Returns whether straight lines may cross media or passable boundaries.
     bool has_media() const { return has_media_; }
-    /// Whether objects heed controls (scene::RayVisibility, holdouts, shadow catchers, ...).
+    /// Returns whether objects heed controls (scene::RayVisibility, holdouts, shadow catchers,
+    /// ...).
     bool has_controls() const { return has_controls_; }
-    /// Whether these depend on the kind of scattering.
+    /// Returns whether these depend on the kind of scattering.
     bool has_controls_by_kind() const { return has_controls_by_kind_; }
-    /// The named sets of instances that lights link to.
+    /// Returns the named sets of instances that lights link to.
     SetNames const& sets() const { return sets_; }
-    /// What a ray's mask has to be for it to meet the objects that `blockers`, the value of some
-    /// light's `shadowedBy`, names.
+    /// Returns what a ray's mask has to be for it to meet the objects that `blockers`, the value of
+    /// some light's `shadowedBy`, names.
     RayMask shadow_mask(Links const& blockers) const;
-    /// Whether any surface is partly transparent.
+    /// Returns whether any surface is partly transparent.
     bool has_alpha() const { return has_alpha_; }
 
     CameraRays const& camera() const { return camera_; }
-    /// The names of materials' layers, in the order of `lobes::Lobe::layer`.
+    /// Returns the names of materials' layers, in the order of `lobes::Lobe::layer`.
     std::vector<std::string> const& layer_labels() const { return materials_.labels(); }
     shading::Textures const& textures() const { return textures_; }
     scene::Scene const& scene() const { return *scene_; }
     WorldStatistics const& statistics() const { return statistics_; }
-    RTCScene embree_scene() const { return embree_scene_; }
     RTCDevice device() const { return device_; }
-    /// Half the diagonal of the box around all objects; 1 where nothing is there.
+    /// Returns half the diagonal of the box around all objects; 1 where nothing is there.
     float radius() const;
-    /// Records every ray into `recorder` (null: none), for measuring the kernel alone.
-    void record_rays(RayRecorder* recorder) const { recorder_ = recorder; }
-
-    /// Opacity at a hit, seen along `direction`, whose geometric normal, as the kernel has it, is
-    /// `ng`.
-    float opacity(Hit const& hit, Vec3 const& ng, Vec3 const& direction) const;
-    /// The part of light that goes straight through at a hit, seen likewise.
-    Color transmittance(Hit const& hit, Vec3 const& ng, Vec3 const& direction,
-                        shading::Look const& look) const;
-    /// Whether those corners (bits) of a mesh's triangle `a` are corners of triangle `b`, too.
-    bool has_corners(uint32_t object, uint32_t a, uint8_t corners, uint32_t b) const;
-    /// A point of a mesh or a disk at `hit`, or of a sphere in direction `local` from its centre,
-    /// all in the object's space; seen from unit `wo`.
-    shading::SurfacePoint point_on(Hit const& hit, Vec3 const& local, Vec3 const& wo,
-                                   RayCone const& cone = {}) const;
-    shading::UvFootprint uv_footprint(Object const& object, RayCone const& cone,
-                                      shading::SurfacePoint const& point) const;
 
   private:
     friend class WorldBuilder;
     World() = default;
 
-    enum class Target : uint8_t { Surfaces, Passable, Solid };
-    Hit closest(Ray const& ray, Target target, uint32_t alpha_seed) const;
+    /// What the filters of one query need and what they leave behind.
+    struct FilterContext;
+    static void filter_closest(RTCFilterFunctionNArguments const* args);
+    static void filter_shadow(RTCFilterFunctionNArguments const* args);
+    Hit filtered_hit(RTCFilterFunctionNArguments const* args) const;
+    /// Answers any query but those of shadow rays.
+    Hit closest(Ray const& ray, Query query, uint32_t alpha_seed) const;
+    /// Fills in of a hit what the kernel does not tell: where on a disk it is. The ray is given in
+    /// the object's own space, where `local`, and else in the world.
+    void complete(Hit& hit, Vec3 const& origin, Vec3 const& direction, bool local) const;
 
-    shading::View view_of(shading::SurfacePoint const& point, Vec3 const& wo, float ior_outside,
-                          shading::Look const& look) const;
-    void mesh_point(Object const& object, Hit const& hit, shading::SurfacePoint& point) const;
-    void sphere_point(Object const& object, Vec3 const& local, shading::SurfacePoint& point) const;
-    void disk_point(Object const& object, Hit const& hit, shading::SurfacePoint& point) const;
-    Vec2 mesh_uv(Object const& object, Hit const& hit) const;
-    static Vec3 sphere_local(Object const& object, Vec3 const& ng);
-    /// The point that an opacity filter asks about: `ng` and `direction` are as the kernel has
-    /// them.
+    /// Returns a hit with the space of its object.
+    Contact contact(Hit const& hit) const;
+    // What filters ask. `ng`, the geometric normal, and `direction`, along which the hit is seen,
+    // are as the kernel has them: in the object's own space, where it is instanced.
+
+    /// Returns the place in the object's own space, as contacts have it.
+    Vec3 local_place(Hit const& hit, Vec3 const& ng) const;
+    float opacity(Hit const& hit, Vec3 const& ng, Vec3 const& direction) const;
+    /// Returns the part of light that goes straight through.
+    Color transmittance(Hit const& hit, Vec3 const& ng, Vec3 const& direction,
+                        shading::Look const& look) const;
     shading::SurfacePoint filtered_point(Hit const& hit, Vec3 const& ng,
                                          Vec3 const& direction) const;
-    void apply_normal_map(Object const& object, shading::SurfacePoint& point) const;
+
+    /// Returns the point of the surface at a contact, seen from unit `wo`.
+    shading::SurfacePoint point_at(Contact const& contact, Vec3 const& wo,
+                                   RayCone const& cone = {}) const;
+    shading::UvFootprint uv_footprint(Contact const& contact, RayCone const& cone,
+                                      shading::SurfacePoint const& point) const;
+    shading::View view_of(shading::SurfacePoint const& point, Vec3 const& wo, float ior_outside,
+                          shading::Look const& look) const;
+    void apply_normal_map(scene::TextureId map, shading::SurfacePoint& point) const;
 
     std::shared_ptr<scene::Scene const> scene_;
     std::vector<Object> objects_;
-    std::vector<TriangleData> triangles_;
+    std::vector<Model> models_;
+    std::vector<GroupMember> members_;
+    std::vector<std::shared_ptr<MeshData const>> meshes_;
     std::vector<media::Medium> media_;
     shading::Textures textures_;
     shading::Materials materials_;
@@ -232,7 +244,18 @@ class World {
     RTCDevice device_ = nullptr;
     RTCScene embree_scene_ = nullptr;
     std::vector<RTCScene> instanced_scenes_;
-    mutable RayRecorder* recorder_ = nullptr;
+    RayRecorder* recorder_ = nullptr;
 };
+
+inline Affined const& World::transform(uint32_t index) const {
+    Object const& o = objects_[index];
+    return o.member == Object::kNoMember ? scene_->instances[size_t(o.source_instance)].transform
+                                         : members_[o.member].to_world;
+}
+
+inline int32_t World::root_instance(uint32_t index) const {
+    Object const& o = objects_[index];
+    return o.member == Object::kNoMember ? o.source_instance : members_[o.member].root_instance;
+}
 
 } // namespace weft::world

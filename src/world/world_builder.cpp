@@ -1,11 +1,11 @@
 #include "world/world_builder.h"
 
 #include <algorithm>
-#include <numeric>
 #include <set>
 
+#include "base/hash.h"
+#include "base/match.h"
 #include "scene/check.h"
-#include "scene/material_facts.h"
 
 namespace weft::world {
 
@@ -22,26 +22,6 @@ std::shared_ptr<scene::Mesh const> make_rectangle() {
     return std::make_shared<scene::Mesh const>(std::move(mesh));
 }
 
-bool keeps_round(Affined const& m) {
-    double const a = length(m.x), b = length(m.y), c = length(m.z), least = 1e-6 * a;
-    return std::abs(a - b) < least && std::abs(a - c) < least &&
-           std::abs(dot(m.x, m.y)) < least * a && std::abs(dot(m.y, m.z)) < least * a &&
-           std::abs(dot(m.z, m.x)) < least * a;
-}
-
-/// What a group hides, its members do not show.
-scene::RayVisibility all_of(scene::RayVisibility const& a, scene::RayVisibility const& b) {
-    return {a.camera && b.camera, a.diffuse && b.diffuse,
-            a.glossy && b.glossy, a.transmission && b.transmission,
-            a.volume && b.volume, a.shadow && b.shadow};
-}
-
-/// The same for the plane z = 0.
-bool keeps_circles(Affined const& m) {
-    double const a = length(m.x), b = length(m.y), least = 1e-6 * a;
-    return std::abs(a - b) < least && std::abs(dot(m.x, m.y)) < least * a;
-}
-
 } // namespace
 
 std::unique_ptr<World> World::commit(std::shared_ptr<scene::Scene const> scene,
@@ -49,6 +29,7 @@ std::unique_ptr<World> World::commit(std::shared_ptr<scene::Scene const> scene,
     scene::check(*scene);
     std::unique_ptr<World> world(new World);
     world->scene_ = scene;
+    world->recorder_ = options.recorder;
     WorldBuilder(*world, *scene, options).build();
     return world;
 }
@@ -62,7 +43,7 @@ void WorldBuilder::build() {
             world_.use_footprints_ |= image->filter == scene::TextureFilter::mipmap;
     rectangle_ = make_rectangle();
     collect_instances();
-    mask_objects();
+    mask_models();
     compile_networks();
     rank_boundaries();
     attach_attributes();
@@ -74,71 +55,68 @@ void WorldBuilder::build() {
     }
     world_.outside_ = media::MediumStack(space);
     count();
+    world_.meshes_.assign(meshes_.begin(), meshes_.end());
 }
 
 void WorldBuilder::collect_instances() {
-    std::vector<int32_t> roots;
-    for (scene::InstanceId id : scene_.contents.instances) roots.push_back(id.index);
     std::map<int32_t, scene::LightId> area_lights; // by instance
-    for (scene::LightId id : scene_.contents.lights) {
-        auto const* area = std::get_if<scene::AreaLight>(&scene_.lights[size_t(id.index)]);
-        if (!area) continue;
-        area_lights[area->instance.index] = id;
-        // An instance that the scene lists as well is not there twice.
-        if (std::find(roots.begin(), roots.end(), area->instance.index) == roots.end())
-            roots.push_back(area->instance.index);
+    for (scene::LightId id : scene_.contents.lights)
+        if (auto const* area = std::get_if<scene::AreaLight>(&scene_.lights[size_t(id.index)]))
+            area_lights[area->instance.index] = id;
+    std::vector<int32_t> roots;
+    std::set<int32_t> listed; // of the instances that are lights
+    for (scene::InstanceId id : scene_.contents.instances) {
+        roots.push_back(id.index);
+        if (area_lights.contains(id.index)) listed.insert(id.index);
     }
-    // How often is each mesh used? Groups count their members for every instance of the group.
-    std::vector<int32_t> open = roots;
-    while (!open.empty()) {
-        scene::Instance const& instance = scene_.instances[size_t(open.back())];
-        open.pop_back();
-        scene::Shape const& shape = scene_.shapes[size_t(instance.shape.index)];
-        if (auto const* mesh = std::get_if<scene::MeshShape>(&shape))
-            ++mesh_uses_[mesh->filename.resource];
-        if (auto const* group = std::get_if<scene::Group>(&shape))
-            for (scene::InstanceId id : group->instances) open.push_back(id.index);
-    }
+    // An instance that the scene lists as well is not there twice.
+    for (scene::LightId id : scene_.contents.lights)
+        if (auto const* area = std::get_if<scene::AreaLight>(&scene_.lights[size_t(id.index)]))
+            if (listed.insert(area->instance.index).second) roots.push_back(area->instance.index);
+    count_uses(roots);
+    world_.objects_.reserve(object_count_);
     for (int32_t root : roots) {
         size_t const first = world_.objects_.size();
         add_instance(root, {});
         if (auto const it = area_lights.find(root); it != area_lights.end())
             for (size_t i = first; i < world_.objects_.size(); ++i)
-                if (world_.objects_[i].emission) add_area_object(uint32_t(i), it->second);
+                if (world_.model(uint32_t(i)).emission) add_area_object(uint32_t(i), it->second);
+    }
+}
+
+/// Counts objects, in all and by mesh. A group counts its members for every instance of the group.
+void WorldBuilder::count_uses(std::vector<int32_t> const& roots) {
+    std::vector<int32_t> open = roots;
+    while (!open.empty()) {
+        scene::Instance const& instance = scene_.instances[size_t(open.back())];
+        open.pop_back();
+        scene::Shape const& shape = scene_.shapes[size_t(instance.shape.index)];
+        if (auto const* group = std::get_if<scene::Group>(&shape)) {
+            for (scene::InstanceId id : group->instances) open.push_back(id.index);
+            continue;
+        }
+        ++object_count_;
+        if (auto const* mesh = std::get_if<scene::MeshShape>(&shape))
+            ++mesh_uses_[mesh->filename.resource];
     }
 }
 
 void WorldBuilder::add_area_object(uint32_t object, scene::LightId light) {
     auto const& area = std::get<scene::AreaLight>(scene_.lights[size_t(light.index)]);
-    world_.objects_[object].spread = shading::Spread(area.spread);
+    world_.models_[world_.object(object).model].spread = shading::Spread(area.spread);
     world_.area_objects_.push_back({object, light});
 }
 
 void WorldBuilder::add_instance(int32_t index, Inherited const& outer) {
     scene::Instance const& instance = scene_.instances[size_t(index)];
     scene::Shape const& shape = scene_.shapes[size_t(instance.shape.index)];
-    auto pick = [](auto const& from_outer, auto const& own) {
-        return from_outer ? from_outer : own;
-    };
-    Inherited given;
-    given.transform = outer.transform * instance.transform;
-    given.material = pick(outer.material, instance.bsdf);
-    given.emission = pick(outer.emission, instance.emission);
-    given.normal_map = pick(outer.normal_map, instance.normal);
-    given.volume = pick(outer.volume, instance.volume);
-    given.medium = pick(outer.medium, instance.medium);
-    given.alpha = outer.alpha != scene::Input<float>{1} ? outer.alpha : instance.alpha;
-    given.priority = outer.priority != 0 ? outer.priority : instance.priority;
-    given.visibility = all_of(outer.visibility, instance.visibility);
-    given.holdout = outer.holdout || instance.holdout;
-    given.shadow_catcher = outer.shadow_catcher || instance.shadow_catcher;
-    given.sets = outer.sets |
-                 world_.sets_.declare(instance.sets, location_of(scene_, scene::InstanceId{index}));
-    given.trace_distance =
-        outer.trace_distance > 0 ? outer.trace_distance : instance.trace_distance;
-    given.root_instance = outer.root_instance >= 0 ? outer.root_instance : index;
-    given.group_instance = outer.group_instance;
-    if (given.group_instance < 0 && !instance.group.empty()) given.group_instance = index;
+    if (!instance.traits.sets.empty())
+        world_.sets_.declare(instance.traits.sets, location_of(scene_, scene::InstanceId{index}));
+    if (outer.root_instance < 0 && !std::holds_alternative<scene::Group>(shape))
+        return add_object(shape, index, {instance.transform, instance.traits});
+    Inherited const given{outer.transform * instance.transform,
+                          inherit(outer.traits, instance.traits),
+                          outer.root_instance >= 0 ? outer.root_instance : index};
     if (auto const* group = std::get_if<scene::Group>(&shape)) {
         for (scene::InstanceId member : group->instances) add_instance(member.index, given);
     } else {
@@ -147,154 +125,55 @@ void WorldBuilder::add_instance(int32_t index, Inherited const& outer) {
 }
 
 void WorldBuilder::add_object(scene::Shape const& shape, int32_t instance, Inherited const& given) {
-    Object object;
-    object.material = given.material;
-    if (given.emission) {
-        auto const& emission = scene_.emissions[size_t(given.emission.index)];
-        object.emission.color = emission.emission;
-        object.emission.tint = scene::scale_of(emission.color, emission.unit);
+    Placed const placed = match(shape, [&](auto const& s) { return place(s, given.transform); });
+    Object object{model_of(placed, given.traits, instance), instance};
+    if (given.root_instance >= 0) {
+        object.member = uint32_t(world_.members_.size());
+        world_.members_.push_back({given.transform, given.root_instance});
     }
-    object.normal_map = given.normal_map;
-    object.opacity.instance = given.alpha;
-    object.priority = given.priority;
-    object.source_instance = instance;
-    object.root_instance = given.root_instance;
-    object.group_instance = given.group_instance;
-    object.medium = medium_of(given);
-    object.visibility = given.visibility;
-    object.sets = given.sets;
-    object.trace_distance = given.trace_distance;
-    object.holdout = given.holdout;
-    object.shadow_catcher = given.shadow_catcher;
-    if (given.material) {
-        auto const& material = scene_.materials[size_t(given.material.index)];
-        object.is_null = scene::is_null_boundary(material);
-        object.has_interior = scene::is_transmissive(scene_, given.material);
-        object.is_see_through =
-            !object.has_interior && scene::passes_straight(scene_, given.material);
-        object.opacity.material = scene::opacity_of(material);
-        if (auto const own = scene::emission_of(material); own && !given.emission)
-            object.emission = {own->color, own->strength};
-    }
-    object.has_alpha = object.opacity != shading::Opacity{};
-    // A medium without a surface material is bounded by nothing, and nothing does not shine.
-    if (!given.material && !given.emission && object.medium >= 0)
-        object.is_null = object.has_interior = true;
-    if (object.is_null) object.emission = {};
-    world_.has_alpha_ |= object.has_alpha;
-    world_.has_media_ |= object.is_null || object.medium >= 0;
-
-    object.to_world = Affine(given.transform);
-    object.to_object = Affine(given.transform.inverse());
-    if (std::holds_alternative<scene::Sphere>(shape)) {
-        object.kind = ObjectKind::Sphere;
-        object.instanced = !keeps_round(given.transform);
-    } else if (std::holds_alternative<scene::Disk>(shape)) {
-        object.kind = ObjectKind::Disk;
-        object.instanced = !keeps_circles(given.transform);
-    } else if (auto const* mesh = std::get_if<scene::MeshShape>(&shape)) {
-        int32_t const file = mesh->filename.resource;
-        auto const& data = scene_.meshes[size_t(file)];
-        object.instanced = mesh_uses_[file] > 1 && data->triangles.size() > kInstancingThreshold;
-        object.triangles = object.instanced ? shared_triangles(file, mesh->smooth)
-                                            : baked_triangles(data, mesh->smooth, given.transform);
-    } else {
-        object.triangles = baked_triangles(rectangle_, false, given.transform);
-        object.is_rectangle = true;
-    }
-    world_.objects_.push_back(std::move(object));
+    world_.objects_.push_back(object);
+    Model const& model = world_.models_[object.model];
+    world_.has_alpha_ |= model.has_alpha;
+    world_.has_media_ |= model.is_null || model.medium >= 0;
 }
 
-/// Programs for all that objects show: what nothing uses is not compiled.
-void WorldBuilder::compile_networks() {
-    world_.textures_ = shading::Textures(scene_.textures.size());
-    world_.materials_ = shading::Materials(scene_);
-    for (Object& o : world_.objects_) {
-        SourceLocation const where = location_of(scene_, scene::InstanceId{o.source_instance});
-        o.has_tangents = bool(o.normal_map);
-        auto look = [&](shading::Needs needs) {
-            o.has_tangents |= !within(needs, shading::Needs::uv | shading::Needs::view);
-        };
-        auto prepare = [&](scene::TextureId id) {
-            world_.textures_.prepare(compiler_, id, where);
-            look(world_.textures_.needs(id));
-        };
-        prepare(o.opacity.instance.texture);
-        prepare(o.opacity.material.texture);
-        prepare(o.normal_map);
-        prepare(o.emission.color.texture);
-        prepare(o.emission.strength.texture);
-        if (!o.material) continue;
-        o.ior = scene::inner_ior(scene_, o.material).value_or(scene::Input<float>{1});
-        prepare(o.ior.texture);
-        world_.materials_.compile(scene_, o.material, compiler_);
-        look(world_.materials_.needs(o.material));
-        o.has_tangents |= world_.materials_.uses_tangents(o.material);
-    }
+WorldBuilder::Placed WorldBuilder::place(scene::Sphere const&, Affined const& to_world) {
+    return {Sphere{}, !keeps_kind(Sphere{}, to_world)};
 }
 
-/// The meshes' properties that programs read. One that no mesh has is a mistake.
-void WorldBuilder::attach_attributes() {
-    for (auto const& [name, node] : compiler_.attributes()) {
-        bool found = false;
-        std::vector<std::string> known;
-        for (TriangleData& data : world_.triangles_) {
-            scene::Mesh const& mesh = *data.source;
-            shading::VertexAttributes::Column column;
-            if (!mesh.colors.empty()) {
-                known.emplace_back("color");
-                if (name == "color") column = {&mesh.colors[0].r, 3};
-            }
-            for (scene::VertexAttribute const& a : mesh.attributes) {
-                known.push_back(a.name);
-                if (a.name == name) column = {a.values.data(), a.components};
-            }
-            found |= column.values != nullptr;
-            data.attributes.mesh = &mesh;
-            data.attributes.columns.push_back(column);
-        }
-        if (found) continue;
-        std::sort(known.begin(), known.end());
-        known.erase(std::unique(known.begin(), known.end()), known.end());
-        throw InputError(location_of(scene_, node),
-                         "expected a vertex property of some mesh, found '" + name + "'" +
-                             (known.empty() ? ": no mesh has any" : suggestion(name, known)));
-    }
+WorldBuilder::Placed WorldBuilder::place(scene::Disk const&, Affined const& to_world) {
+    return {Disk{}, !keeps_kind(Disk{}, to_world)};
 }
 
-int32_t WorldBuilder::add_medium(media::Medium const& medium) {
-    world_.media_.push_back(medium);
-    world_.has_media_ = true;
-    return int32_t(world_.media_.size()) - 1;
+WorldBuilder::Placed WorldBuilder::place(scene::Rectangle const&, Affined const& to_world) {
+    return {TriangleMesh(add_mesh(rectangle_, false, to_world)), false, true};
 }
 
-int32_t WorldBuilder::medium_of(Inherited const& given) {
-    if (given.medium) {
-        auto const& m = scene_.media[size_t(given.medium.index)];
-        return add_medium({m.absorption, m.scatter, m.phase});
-    }
-    if (!given.material) return -1;
-    auto const* v =
-        std::get_if<scene::VolumeBoundary>(&scene_.materials[size_t(given.material.index)]);
-    if (!v) return -1;
-    float const density = given.volume ? scene_.volumes[size_t(given.volume.index)].value : 1;
-    // What a scattering event takes away by its colour is absorbed.
-    Color const scattering = density * v->scatter * v->base_color;
-    return add_medium({density * (v->absorption + v->scatter) - scattering, scattering, v->phase});
+WorldBuilder::Placed WorldBuilder::place(scene::MeshShape const& shape, Affined const& to_world) {
+    int32_t const file = shape.filename.resource;
+    auto const& mesh = scene_.meshes[size_t(file)];
+    if (mesh_uses_[file] > 1 && mesh->triangles.size() > kInstancingThreshold)
+        return {TriangleMesh(shared_mesh(file, shape.smooth)), true, false};
+    return {TriangleMesh(add_mesh(mesh, shape.smooth, to_world)), false, true};
 }
 
-int32_t WorldBuilder::shared_triangles(int32_t mesh, bool smooth) {
-    auto const [it, fresh] = shared_.emplace(std::pair(mesh, smooth), -1);
-    if (fresh) it->second = baked_triangles(scene_.meshes[size_t(mesh)], smooth, Affined());
-    return it->second;
+WorldBuilder::Placed WorldBuilder::place(scene::Group const&, Affined const&) {
+    throw std::logic_error("a group is no object");
 }
 
-int32_t WorldBuilder::baked_triangles(std::shared_ptr<scene::Mesh const> mesh, bool smooth,
-                                      Affined const& transform) {
-    TriangleData data;
+MeshData const& WorldBuilder::shared_mesh(int32_t mesh, bool smooth) {
+    auto const [it, fresh] = shared_meshes_.emplace(std::pair(mesh, smooth), nullptr);
+    if (fresh) it->second = &add_mesh(scene_.meshes[size_t(mesh)], smooth, Affined());
+    return *it->second;
+}
+
+MeshData const& WorldBuilder::add_mesh(std::shared_ptr<scene::Mesh const> mesh, bool smooth,
+                                       Affined const& transform) {
+    MeshData& data = *meshes_.emplace_back(std::make_shared<MeshData>());
     data.mirrored = transform.determinant() < 0;
     data.smooth = smooth && !mesh->normals.empty();
     data.has_uvs = !mesh->uvs.empty();
+    data.is_rectangle = mesh == rectangle_;
     data.vertices.resize(mesh->positions.size());
     for (size_t i = 0; i < data.vertices.size(); ++i) {
         data.vertices[i].p = Vec3(transform.point(Vec3d(mesh->positions[i])));
@@ -311,8 +190,36 @@ int32_t WorldBuilder::baked_triangles(std::shared_ptr<scene::Mesh const> mesh, b
             data.vertices[i].n = Vec3(inverse.transposed(Vec3d(mesh->normals[i])) * scale);
     }
     data.source = std::move(mesh);
-    world_.triangles_.push_back(std::move(data));
-    return int32_t(world_.triangles_.size()) - 1;
+    return data;
+}
+
+WorldBuilder::GeometryKey WorldBuilder::key_of(Geometry const& geometry) {
+    auto const* mesh = std::get_if<TriangleMesh>(&geometry);
+    return {geometry.index(), mesh ? mesh->data : nullptr};
+}
+
+/// Objects that emit have a model each, since a light may change what they emit.
+uint32_t WorldBuilder::model_of(Placed const& placed, scene::InstanceTraits const& traits,
+                                int32_t instance) {
+    // Traits that are not hashed make the search longer, not wrong.
+    auto const [kind, mesh] = key_of(placed.geometry);
+    size_t hash = std::hash<MeshData const*>()(mesh) + kind;
+    for (int32_t part : {traits.bsdf.index, traits.normal.index, traits.alpha.texture.index,
+                         traits.volume.index, traits.medium.index, int32_t(placed.instanced),
+                         traits.priority, std::bit_cast<int32_t>(traits.alpha.value)})
+        hash = hash_combine(hash, uint64_t(uint32_t(part)));
+    auto const [first, last] = shared_models_.equal_range(hash);
+    for (auto it = first; it != last; ++it) {
+        Model const& m = world_.models_[it->second];
+        if (m.geometry == placed.geometry && m.instanced == placed.instanced && m.traits == traits)
+            return it->second;
+    }
+    uint32_t const index = uint32_t(world_.models_.size());
+    world_.models_.push_back(make_model(placed, traits, instance));
+    first_instance_.push_back(instance);
+    if (!world_.models_.back().emission && !placed.in_world_space)
+        shared_models_.emplace(hash, index);
+    return index;
 }
 
 void WorldBuilder::count() {
@@ -321,13 +228,16 @@ void WorldBuilder::count() {
     std::set<image::Texture const*> images;
     for (auto const& image : scene_.images) images.insert(image.get());
     for (auto const* image : images) s.memory_bytes += image->memory_bytes();
-    for (TriangleData const& t : world_.triangles_) {
-        s.unique_triangles += t.source->triangles.size();
-        s.memory_bytes += t.vertices.size() * sizeof(Vertex) + t.source->triangles.size() * 12;
+    for (auto const& mesh : meshes_) {
+        s.unique_triangles += mesh->source->triangles.size();
+        s.memory_bytes +=
+            mesh->vertices.size() * sizeof(Vertex) + mesh->source->triangles.size() * 12;
     }
+    s.memory_bytes += s.objects * (sizeof(Object) + sizeof(scene::Instance)) +
+                      world_.models_.size() * sizeof(Model);
     for (Object const& o : world_.objects_)
-        if (o.triangles >= 0)
-            s.triangles += world_.triangles_[size_t(o.triangles)].source->triangles.size();
+        if (auto const* mesh = std::get_if<TriangleMesh>(&world_.models_[o.model].geometry))
+            s.triangles += mesh->data->source->triangles.size();
 }
 
 } // namespace weft::world

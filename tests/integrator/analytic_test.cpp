@@ -170,7 +170,7 @@ TEST(Opacity, OfTenCardsLetsOneOf1024Through) {
             R"(<instance alpha="0.5"><shape type="rectangle"/><bsdf type="diffuse" albedo="0"/><transform><scale value="1e4"/><translate z=")" +
             std::to_string(1 + i) + R"("/></transform></instance>)";
     for (char const* strategy : {"mis", "nee", "bsdf"}) {
-        auto const scene = make_scene(
+        auto scene = make_scene(
             R"(<camera type="perspective" width="4" height="4" fov="1"><transform><lookat origin="0,0,0.5" target="0,0,0" up="0,1,0"/></transform></camera>)" +
                 kWhiteSky + cards +
                 R"(<instance><shape type="rectangle"/><bsdf type="diffuse" albedo="1"/></instance>)",
@@ -178,14 +178,15 @@ TEST(Opacity, OfTenCardsLetsOneOf1024Through) {
         expect_mean(scene, Color(1 / 1024.f), 40000, 9, strategy);
         // One shadow ray goes through all of them.
         world::RayRecorder recorder;
-        scene.world->record_rays(&recorder);
+        scene.commit({.recorder = &recorder},
+                     integrator::combines_strategies(scene.job.integrator));
         EXPECT_FLOAT_EQ(scene.world->visibility({{0.1f, 0.2f, 0.5f}, {0, 0, 1}}).g, 1 / 1024.f);
         integrator::PixelRenderer const renderer(*scene.stage, scene.job.integrator,
                                                  scene.job.sampler, 0);
         renderer.sample({1, 1}, 0);
-        scene.world->record_rays(nullptr);
         size_t shadow_rays = 0;
-        for (world::RecordedRay const& r : *recorder.lists().at(0)) shadow_rays += r.shadow;
+        for (world::RecordedRay const& r : *recorder.lists().at(0))
+            shadow_rays += r.query == world::Query::shadow;
         EXPECT_EQ(shadow_rays, std::string(strategy) == "bsdf" ? 1u : 2u);
     }
 }

@@ -58,7 +58,7 @@ struct Loaded {
         return scene.instances[size_t(contents.instances[i].index)];
     }
     scene::Disney const& disney() const {
-        return std::get<scene::Disney>(scene.materials[size_t(instance(0).bsdf.index)]);
+        return std::get<scene::Disney>(scene.materials[size_t(instance(0).traits.bsdf.index)]);
     }
 };
 
@@ -136,7 +136,7 @@ TEST(Gltf, ScenesMeetTheRulesOfAllScenes) {
     l.scene.cameras.emplace_back();
     l.scene.contents.instances = l.contents.instances;
     EXPECT_NO_THROW(scene::check(l.scene));
-    l.scene.instances[0].group = "a b";
+    l.scene.instances[0].traits.group = "a b";
     try {
         scene::check(l.scene);
         ADD_FAILURE() << "no error";
@@ -238,8 +238,8 @@ TEST(Gltf, DefaultMaterialIsMetalAndFactorsAreTaken) {
     EXPECT_FLOAT_EQ(m.thin_film_thickness.value, 350);
     EXPECT_FLOAT_EQ(m.thin_film_ior.value, 1.4f);
     EXPECT_FLOAT_EQ(m.transmission.value, 0.9f);
-    ASSERT_TRUE(l.instance(0).medium);
-    Color const absorption = l.scene.media[size_t(l.instance(0).medium.index)].absorption;
+    ASSERT_TRUE(l.instance(0).traits.medium);
+    Color const absorption = l.scene.media[size_t(l.instance(0).traits.medium.index)].absorption;
     EXPECT_NEAR(absorption.r, 0, 1e-6);
     EXPECT_NEAR(absorption.g, std::log(2.) / 2, 1e-6);
     EXPECT_NEAR(absorption.b, std::log(4.) / 2, 1e-6);

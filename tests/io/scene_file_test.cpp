@@ -119,8 +119,8 @@ TEST(SceneFile, ReferencesShareObjects) {
     EXPECT_EQ(scene->materials.size(), 1u);
     EXPECT_EQ(scene->shapes.size(), 1u);
     ASSERT_EQ(scene->contents.instances.size(), 3u);
-    EXPECT_EQ(scene->instances[0].bsdf, scene->instances[1].bsdf);
-    EXPECT_FALSE(scene->instances[2].bsdf) << "a reference to a shape is a bare shape";
+    EXPECT_EQ(scene->instances[0].traits.bsdf, scene->instances[1].traits.bsdf);
+    EXPECT_FALSE(scene->instances[2].traits.bsdf) << "a reference to a shape is a bare shape";
 }
 
 TEST(SceneFile, BareShapesAreInstances) {
@@ -137,7 +137,7 @@ TEST(SceneFile, InstancesRememberWhereTheyStand) {
     auto const scene = parse_inner("\r\n\t<instance id='ball'>\r\n<shape type='sphere'/></instance>"
                                    "\n  <light type='point'/>");
     EXPECT_EQ(to_string(scene->instance_locations.at(0)), "s.xml:2:2");
-    EXPECT_EQ(scene->instance_names.at(0), "ball");
+    EXPECT_EQ(scene->instance_names.at(0).str(), "ball");
     EXPECT_EQ(to_string(scene->light_locations.at(0)), "s.xml:4:3");
 }
 

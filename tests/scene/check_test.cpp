@@ -18,7 +18,7 @@ Scene valid_scene() {
     s.contents.camera = add(s, CameraKind{}, Perspective{});
     Instance ball;
     ball.shape = add(s, ShapeKind{}, Sphere{});
-    ball.bsdf = add(s, MaterialKind{}, Diffuse{});
+    ball.traits.bsdf = add(s, MaterialKind{}, Diffuse{});
     s.contents.instances = {add(s, InstanceKind{}, ball)};
     s.contents.lights = {add(s, LightKind{}, PointLight{})};
     return s;
@@ -149,11 +149,11 @@ TEST(Check, DefaultsAreInRange) {
 
 TEST(Check, IndicesLeadSomewhere) {
     EXPECT_EQ(message({}), "scene: <scene> expects a <camera>, found none: The point of view.");
-    EXPECT_EQ(message(changed([](Scene& s) { s.instances[0].bsdf = {3}; })),
+    EXPECT_EQ(message(changed([](Scene& s) { s.instances[0].traits.bsdf = {3}; })),
               "instance 0: 'bsdf' of <instance> expects one of the scene's 1 objects <bsdf>, found "
               "index 3");
     EXPECT_EQ(
-        message(changed([](Scene& s) { s.instances[0].medium = {-2}; })),
+        message(changed([](Scene& s) { s.instances[0].traits.medium = {-2}; })),
         "instance 0: 'medium' of <instance> expects one of the scene's 0 objects <medium>, found "
         "index -2");
     EXPECT_EQ(message(changed([](Scene& s) { s.instances[0].shape = {}; })),
@@ -219,7 +219,7 @@ TEST(Check, TypesOfNodesFit) {
         "texture 2: 'in2' of <texture type=\"add\"> expects a vector3 as the inputs before it, "
         "found a vector2; `convert` and `extract` make one of the other");
     Scene normal = with_node(nodes::Texcoord{});
-    normal.instances[0].normal = {0};
+    normal.instances[0].traits.normal = {0};
     EXPECT_EQ(message(normal),
               "instance 0: 'normal' of <instance> expects a color or a vector3, found a vector2");
 }

@@ -30,6 +30,7 @@ struct Mutation {
     static void change(int& v) { ++v; }
     static void change(float& v) { v += 1; }
     static void change(std::string& v) { v += "x"; }
+    static void change(SharedText& v) { v = v.str() + "x"; }
     static void change(Color& v) { v.g += 1; }
     static void change(Vec2& v) { v.y += 1; }
     static void change(Vec3& v) { v.z += 1; }

@@ -211,11 +211,11 @@ TEST(NodeValues, Ramps) {
 
 TEST(NodeValues, Surface) {
     Rng rng(6);
-    Affine const to_world({0, 2, 0}, {-1, 0, 0}, {0.5f, 0, 3}, {1, 2, 3});
-    Affine const to_object = to_world.inverse();
+    ObjectSpace const space(Affined({0, 2, 0}, {-1, 0, 0}, {0.5, 0, 3}, {1, 2, 3}));
+    auto const& [to_world, to_object] = space;
     for (int i = 0; i < 50; ++i) {
         auto point = random_point(rng);
-        point.to_world = &to_world, point.to_object = &to_object;
+        point.space = space;
         Network net;
         Vec3 const p = net.at(net.add(nodes::Position{}), point);
         expect_near(to_world.point(p), Vec3d(point.p), 1e-5, "position");

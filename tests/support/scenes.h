@@ -40,8 +40,8 @@ struct TestScene {
     std::unique_ptr<lights::Stage const> stage;
     world::World const* world;
 
-    void commit(bool compensate = false) {
-        stage = lights::Stage::commit(job.scene, {}, compensate);
+    void commit(world::CommitOptions const& options = {}, bool compensate = false) {
+        stage = lights::Stage::commit(job.scene, options, compensate);
         world = &stage->world();
     }
 };
@@ -53,7 +53,7 @@ inline TestScene make_scene(std::string const& contents,
     std::string const text = "<integrator " + integrator + "><sampler " + sampler + "/><scene>" +
                              contents + "</scene></integrator>";
     TestScene made{io::parse_scene(text, "test", folder).jobs.at(0), nullptr, nullptr};
-    made.commit(integrator::combines_strategies(made.job.integrator));
+    made.commit({}, integrator::combines_strategies(made.job.integrator));
     return made;
 }
 

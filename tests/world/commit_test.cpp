@@ -1,6 +1,8 @@
 // A world is made of valid scenes alone, whoever made them.
 #include <gtest/gtest.h>
 
+#include <ctime>
+
 #include "scene/scene_vectors.h"
 #include "world/world.h"
 
@@ -13,8 +15,9 @@ std::shared_ptr<scene::Scene const> sphere_of(scene::Material const& material) {
     scene::Instance ball;
     ball.shape = add(*s, scene::ShapeKind{}, scene::Sphere{});
     add(*s, scene::MaterialKind{}, scene::Diffuse{});
-    ball.bsdf = add(*s, scene::MaterialKind{}, material);
-    s->contents.camera = add(*s, scene::CameraKind{}, scene::Perspective{});
+    ball.traits.bsdf = add(*s, scene::MaterialKind{}, material);
+    s->cameras.emplace_back(scene::Perspective{});
+    s->contents.camera = {0};
     s->contents.instances = {add(*s, scene::InstanceKind{}, ball)};
     return s;
 }
@@ -28,6 +31,61 @@ TEST(Commit, RefusesScenesThatAreNotValid) {
     EXPECT_THROW(World::commit(sphere_of(scene::Mix{.bsdfs = {{0}, {1}}})), InputError);
     EXPECT_THROW(World::commit(sphere_of(scene::Secondary{})), InputError);
     EXPECT_THROW(World::commit(sphere_of(scene::Diffuse{.albedo = {Color(0), {7}}})), InputError);
+}
+
+/// So many meshes of 72 triangles, each there twice.
+std::shared_ptr<scene::Scene const> meshes_in_pairs(int count) {
+    auto s = std::make_shared<scene::Scene>();
+    s->cameras.emplace_back(scene::Perspective{});
+    s->contents.camera = {0};
+    scene::Mesh grid;
+    constexpr uint32_t side = 6;
+    for (uint32_t y = 0; y <= side; ++y)
+        for (uint32_t x = 0; x <= side; ++x) grid.positions.push_back({float(x), float(y), 0});
+    for (uint32_t y = 0; y < side; ++y)
+        for (uint32_t x = 0; x < side; ++x) {
+            uint32_t const a = y * (side + 1) + x, b = a + side + 1;
+            grid.triangles.push_back({{a, a + 1, b + 1}});
+            grid.triangles.push_back({{a, b + 1, b}});
+        }
+    for (int i = 0; i < count; ++i) {
+        s->meshes.push_back(std::make_shared<scene::Mesh const>(grid));
+        scene::MeshShape shape;
+        shape.filename.resource = i;
+        s->shapes.emplace_back(shape);
+        for (double z : {0.0, 1.0}) {
+            scene::Instance instance;
+            instance.shape = {i};
+            instance.transform.origin = {double(i), 0, z};
+            s->contents.instances.push_back({int32_t(s->instances.size())});
+            s->instances.push_back(instance);
+        }
+    }
+    return s;
+}
+
+/// Processor seconds of a commit, the least of three.
+double seconds_to_commit(std::shared_ptr<scene::Scene const> const& scene) {
+    double least = 1e9;
+    for (int i = 0; i < 3; ++i) {
+        std::clock_t const start = std::clock();
+        World::commit(scene);
+        least = std::min(least, double(std::clock() - start) / CLOCKS_PER_SEC);
+    }
+    return least;
+}
+
+TEST(Commit, TakesTimeInProportionToInstancedMeshes) {
+    // Eight times as many: 64 times as long where each mesh looks at all objects.
+    double const few = seconds_to_commit(meshes_in_pairs(500)),
+                 many = seconds_to_commit(meshes_in_pairs(4000));
+    EXPECT_LT(many, 24 * few);
+}
+
+TEST(Commit, KeepsLittlePerObject) {
+    auto const pairs = World::commit(meshes_in_pairs(50));
+    EXPECT_EQ(pairs->object_count(), 100u);
+    EXPECT_EQ(pairs->models().size(), 50u); // what looks the same is one model
 }
 
 } // namespace

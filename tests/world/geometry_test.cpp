@@ -2,6 +2,7 @@
 // storing a shape gives the same points.
 #include <gtest/gtest.h>
 
+#include <set>
 #include <sstream>
 
 #include "base/hash.h"
@@ -27,8 +28,8 @@ TEST(Watertight, NothingEscapesFromAClosedMesh) {
             make_scene(kCamera + "<instance><shape type=\"mesh\" filename=\"ball.ply\"/>" +
                            transform + "</instance>",
                        "type=\"path\"", folder.path());
-        Object const& object = scene.world->object(0);
-        Vec3 const centre = object.to_world.origin;
+        Affine const to_world = scene.world->space_of(0).to_world;
+        Vec3 const centre = to_world.origin;
         uint64_t escaped = 0;
         for (int i = 0; i < 1000000; ++i)
             escaped += !scene.world->intersect({centre, square_to_sphere(rng.next2())});
@@ -37,9 +38,9 @@ TEST(Watertight, NothingEscapesFromAClosedMesh) {
         uint64_t at_edges = 0, at_vertices = 0, vertex_rays = 0;
         for (auto const& t : mesh.triangles)
             for (int k = 0; k < 3; ++k) {
-                Vec3 const a = object.to_world.point(mesh.positions[t.v[k]]),
-                           b = object.to_world.point(mesh.positions[t.v[(k + 1) % 3]]);
-                Vec3 const inside = object.to_world.point(square_to_sphere(rng.next2()) * 0.5f);
+                Vec3 const a = to_world.point(mesh.positions[t.v[k]]),
+                           b = to_world.point(mesh.positions[t.v[(k + 1) % 3]]);
+                Vec3 const inside = to_world.point(square_to_sphere(rng.next2()) * 0.5f);
                 for (Vec3 const& from : {centre, inside}) {
                     for (float s : {0.5f, rng.next(), rng.next()})
                         at_edges +=
@@ -115,15 +116,15 @@ TEST(SelfIntersection, NeverAfterLeavingAConvexObject) {
                             "</instance>";
             auto const scene = make_scene(contents, "type=\"path\"", folder.path());
             World const& world = *scene.world;
-            Object const& object = world.object(0);
-            ASSERT_EQ(object.instanced,
-                      convex.copies == 2 || (object.kind != ObjectKind::Mesh && place.shear));
+            Affine const to_world = world.space_of(0).to_world;
+            bool const is_mesh = std::holds_alternative<TriangleMesh>(world.model(0).geometry);
+            ASSERT_EQ(world.model(0).instanced, convex.copies == 2 || (!is_mesh && place.shear));
             int again = 0, rays = 0, lost = 0;
             double const reach = 100 * place.scale;
             while (rays < 300000) {
                 // A point: by a ray from outside towards the object, as renders find them.
                 Vec3 const target =
-                    object.to_world.point(square_to_sphere(rng.next2()) * 0.9f * rng.next());
+                    to_world.point(square_to_sphere(rng.next2()) * 0.9f * rng.next());
                 Vec3 const from = target + square_to_sphere(rng.next2()) *
                                                float(place.scale * (3 + 20 * double(rng.next())));
                 Ray const ray{from, normalize(target - from)};
@@ -177,11 +178,11 @@ TEST(SelfIntersection, NothingGetsThroughAThinPlate) {
             kCamera + plate + matrix(place.scale, place.offset, place.shear) + "</instance>" +
             plate + matrix(place.scale, place.offset + lift, place.shear) + "</instance>");
         World const& world = *scene.world;
-        Object const& lower = world.object(0);
+        Affine const to_world = world.space_of(0).to_world;
         int leaks = 0, rays = 0;
         for (int i = 0; i < 100000; ++i) {
             Vec3 const target =
-                lower.to_world.point({1.8f * rng.next() - 0.9f, 1.8f * rng.next() - 0.9f, 0});
+                to_world.point({1.8f * rng.next() - 0.9f, 1.8f * rng.next() - 0.9f, 0});
             Vec3 const from = target - Vec3(m.z) * float(place.scale) +
                               Vec3(m.x) * float(place.scale * (double(rng.next()) - 0.5));
             Ray const ray{from, normalize(target - from)};
@@ -225,8 +226,8 @@ TEST(Instances, EqualTheBakedMeshUnderAnyAffineMap) {
             make_scene(kCamera + text.str() + "<instance>" + shape +
                            "<transform><translate x=\"1e6\"/></transform></instance>",
                        "type=\"path\"", folder.path());
-        ASSERT_FALSE(baked.world->object(0).instanced);
-        ASSERT_TRUE(shared.world->object(0).instanced);
+        ASSERT_FALSE(baked.world->model(0).instanced);
+        ASSERT_TRUE(shared.world->model(0).instanced);
         int compared = 0, edges = 0;
         Affine const to_world(m);
         auto norm = [](Affined const& a) {
@@ -323,7 +324,7 @@ TEST(NormalMaps, GoAlongUAndVWhateverIsMirrored) {
                 auto const scene = make_scene(
                     kCamera + instance("") + (instanced ? instance("<translate x=\"9\"/>") : ""),
                     "type=\"path\"", folder.path());
-                ASSERT_EQ(scene.world->object(0).instanced, instanced);
+                ASSERT_EQ(scene.world->model(0).instanced, instanced);
                 Ray const ray{{0.3f, 0.2f, 5}, {0, 0, -1}};
                 shading::SurfacePoint const p =
                     scene.world->surface(ray, scene.world->intersect(ray));
@@ -344,10 +345,59 @@ TEST(RayRecorder, KnowsItsListsWhereverItLives) {
     std::optional<RayRecorder> recorder;
     for (int rays : {3, 2}) {
         recorder.emplace();
-        for (int i = 0; i < rays; ++i) recorder->record({}, false);
+        for (int i = 0; i < rays; ++i) recorder->record({});
         ASSERT_EQ(recorder->lists().size(), 1u);
         EXPECT_EQ(recorder->lists()[0]->size(), size_t(rays));
     }
+}
+
+/// Two instances of one mesh, 10 apart, told by `alphas`.
+TestScene two_balls(TemporaryFolder const& folder, std::array<std::string, 2> const& alphas,
+                    RayRecorder* recorder = nullptr) {
+    write_ply(folder / "ball.ply", icosphere(2, false));
+    std::string contents = kCamera;
+    for (int i = 0; i < 2; ++i)
+        contents += "<instance" + alphas[size_t(i)] +
+                    "><shape type=\"mesh\" filename=\"ball.ply\"/><transform><translate x=\"" +
+                    std::to_string(10 * i) + "\"/></transform></instance>";
+    auto scene = make_scene(contents, "type=\"path\"", folder.path());
+    if (recorder) scene.commit({.recorder = recorder});
+    return scene;
+}
+
+TEST(Opacity, IsAskedForWhereAnyInstanceOfAMeshHasSome) {
+    TemporaryFolder const folder;
+    std::string const half = " alpha=\"0.5\"";
+    for (auto const& alphas : {std::array<std::string, 2>{"", half}, {half, ""}, {half, half}}) {
+        auto const scene = two_balls(folder, alphas);
+        for (size_t i = 0; i < 2; ++i) {
+            ASSERT_TRUE(scene.world->model(uint32_t(i)).instanced);
+            Ray const ray{{float(10 * i) + 0.1f, 0.2f, -5}, {0, 0, 1}};
+            EXPECT_EQ(scene.world->visibility(ray).g, alphas[i].empty() ? 0.f : 0.25f);
+        }
+    }
+}
+
+TEST(RayRecorder, ReplaysTheQueriesOfARenderToTheSameAnswers) {
+    TemporaryFolder const folder;
+    RayRecorder recorder;
+    auto const scene = two_balls(folder, {" alpha=\"0.5\"", ""}, &recorder);
+    World const& world = *scene.world;
+    Rng rng(3);
+    std::vector<uint32_t> answers;
+    for (uint32_t i = 0; i < 300; ++i) {
+        Ray const ray{{-5, 0, 0}, normalize(Vec3(1, 0.3f * rng.next(), 0.3f * rng.next()))};
+        Hit const hit = i % 3 == 0   ? world.intersect(ray, i)
+                        : i % 3 == 1 ? world.intersect_solid(ray)
+                                     : Hit{};
+        answers.push_back(i % 3 == 2 ? is_black(world.visibility(ray))
+                                     : hit.object + hit.primitive);
+    }
+    auto const asked = *recorder.lists().at(0);
+    ASSERT_EQ(asked.size(), answers.size());
+    std::set<uint32_t> different(answers.begin(), answers.end());
+    EXPECT_GT(different.size(), 10u);
+    for (size_t i = 0; i < asked.size(); ++i) EXPECT_EQ(world.replay(asked[i]), answers[i]) << i;
 }
 
 TEST(Groups, OuterSettingsReplaceThoseOfMembers) {
@@ -365,20 +415,19 @@ TEST(Groups, OuterSettingsReplaceThoseOfMembers) {
     auto object_at = [&](Vec3 const& p) {
         return world.intersect({p - Vec3(0, 0, 5), {0, 0, 1}}, 12).object;
     };
-    Object const &a = world.object(0), &b = world.object(1), &c = world.object(2),
-                 &d = world.object(3);
+    Model const &a = world.model(0), &b = world.model(1), &c = world.model(2), &d = world.model(3);
     EXPECT_EQ(object_at({0, 0, 0}), 0u);
-    EXPECT_EQ(d.to_world.origin, Vec3(8, 10, 0));
-    EXPECT_TRUE(a.material);
-    EXPECT_FALSE(b.material);
-    EXPECT_EQ(c.material.index, d.material.index);
-    EXPECT_NE(a.material.index, c.material.index);
+    EXPECT_EQ(world.transform(3).origin, Vec3d(8, 10, 0));
+    EXPECT_TRUE(a.traits.bsdf);
+    EXPECT_FALSE(b.traits.bsdf);
+    EXPECT_EQ(c.traits.bsdf.index, d.traits.bsdf.index);
+    EXPECT_NE(a.traits.bsdf.index, c.traits.bsdf.index);
     EXPECT_EQ(a.opacity.instance.value, 1);
     EXPECT_EQ(b.opacity.instance.value, 0.5f);
     EXPECT_EQ(c.opacity.instance.value, 0.25f);
     EXPECT_EQ(d.opacity.instance.value, 0.25f);
-    EXPECT_EQ(b.priority, 3);
-    EXPECT_EQ(d.priority, 5);
+    EXPECT_EQ(b.traits.priority, 3);
+    EXPECT_EQ(d.traits.priority, 5);
 }
 
 TEST(Opacity, IsTheFrequencyOfBeingMet) {
@@ -418,8 +467,7 @@ TEST(Disk, IsAnEllipseUnderAnyAffineMap) {
                            R"(<shape type="disk"/><bsdf type="diffuse"/>)" +
                            matrix(place.scale, place.offset, place.shear) + "</instance>");
             World const& world = *scene.world;
-            Object const& object = world.object(0);
-            Affined const m(object.to_world);
+            Affined const m(world.space_of(0).to_world);
             Vec3d const front = normalize(m.inverse().transposed({0, 0, 1}));
             double const rounding = 1e-6 * (1 + length(place.offset) / place.scale);
             Rng rng(6);
