@@ -40,7 +40,7 @@ inline float reach_of(PathSettings const& settings, world::Model const& model) {
 
 /// Returns the controls of a light; null where no light has any, and for -1, which is no light.
 inline lights::LightRules const* rules_of(Tracer const& t, int32_t light) {
-    return t.settings.controls && t.lights.has_controls() && light >= 0 ? &t.lights[light].rules
+    return t.settings.controls && t.lights.has_controls() && light >= 0 ? &t.lights.rules(light)
                                                                         : nullptr;
 }
 

@@ -44,28 +44,30 @@ void add_lamps(Tracer const& t, PathState const& path, float limit) {
     ray.t_max = std::min(limit, path.ray.t_max);
     int32_t const medium = path.media.current().medium;
     lights::LitPoint const& from = path.last.at;
-    t.lights.lamps(ray, from, [&](int32_t light, Vec3 const& p, Color const& radiance, float pdf) {
-        if (seen && t.lights[light].hidden_from_camera) return;
-        float const light_pdf = path.last.pdf > 0 ? pdf : 0;
-        Color value =
-            path.throughput * radiance * found_part(t, path, light, light_pdf, length(p - from.p));
-        // Wherever the path scatters in the medium, the lamp's light on this line is the same.
-        if (medium >= 0)
-            value *= media::transmittance(t.world.medium(medium), length(p - path.ray.origin));
-        add_clamped(t, {value, light, path.signature});
-    });
+    t.lights.lamps(
+        t.world, ray, from, [&](int32_t light, Vec3 const& p, Color const& radiance, float pdf) {
+            if (seen && t.lights.info(light).hidden_from_camera) return;
+            float const light_pdf = path.last.pdf > 0 ? pdf : 0;
+            Color value = path.throughput * radiance *
+                          found_part(t, path, light, light_pdf, length(p - from.p));
+            // Wherever the path scatters in the medium, the lamp's light on this line is the same.
+            if (medium >= 0)
+                value *= media::transmittance(t.world.medium(medium), length(p - path.ray.origin));
+            add_clamped(t, {value, light, path.signature});
+        });
 }
 
 void add_background(Tracer const& t, PathState const& path) {
     Color seen;
-    t.lights.environment(path.last.at, path.ray.direction,
-                         [&](int32_t light, Color const& radiance, float pdf) {
-                             if (path.bounces() == 0 && t.lights[light].hidden_from_camera) return;
-                             seen += radiance;
-                             float const part = found_part(t, path, light, pdf, kInfinity);
-                             add_clamped(t, {path.throughput * radiance * part, light,
-                                             path.signature, -1, film::Found::InBackground});
-                         });
+    t.lights.background(t.world, path.last.at, path.ray.direction,
+                        [&](int32_t light, Color const& radiance, float pdf) {
+                            if (path.bounces() == 0 && t.lights.info(light).hidden_from_camera)
+                                return;
+                            seen += radiance;
+                            float const part = found_part(t, path, light, pdf, kInfinity);
+                            add_clamped(t, {path.throughput * radiance * part, light,
+                                            path.signature, -1, film::Found::InBackground});
+                        });
     if (t.record()) record_background(path, seen, *t.record());
 }
 

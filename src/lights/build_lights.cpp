@@ -93,14 +93,15 @@ void LightBuilder::add_light(scene::IesLight const& light, SourceLocation const&
 }
 
 void LightBuilder::link_lights() {
-    for (Light& light : list_.lights) {
-        LightRules& rules = light.rules;
-        SourceLocation const where = location_of(scene_, scene::LightId{light.source});
-        rules.lit = world_.sets().find(light.controls.illuminates, "illuminates", where);
+    for (size_t i = 0; i < list_.kinds.size(); ++i) {
+        LightRules& rules = list_.rules[i];
+        LightInfo const& info = list_.infos[i];
+        SourceLocation const where = location_of(scene_, scene::LightId{info.source});
+        rules.lit = world_.sets().find(info.controls.illuminates, "illuminates", where);
         if (world::Links const by =
-                world_.sets().find(light.controls.shadowed_by, "shadowedBy", where))
+                world_.sets().find(info.controls.shadowed_by, "shadowedBy", where))
             if (rules.shadow_mask != 0) rules.shadow_mask = world_.shadow_mask(by);
-        if (auto const* area = std::get_if<AreaLight>(&light.kind))
+        if (auto const* area = std::get_if<AreaLight>(&list_.kinds[i]))
             for (RayKind kind : kAllRayKinds)
                 if (!world::is_visible(world_.model(area->object).traits.visibility, kind))
                     rules.hide_from(kind);

@@ -4,27 +4,26 @@
 
 #include <numbers>
 
-#include "base/color.h"
+#include "lights/light_sample.h"
 
 namespace weft::lights {
 
-struct DeltaLightSample {
-    Vec3 wi{0, 0, 1};   ///< unit, towards the light
-    float distance = 0; ///< to the light; infinite for directional lights
-    Color irradiance;   ///< on a surface facing the light, without occlusion; black at distance 0
-};
+/// Returns the sample of a light of no size: `irradiance` on a surface that faces it.
+inline LightSample delta_sample(Vec3 const& wi, float distance, Color const& irradiance) {
+    return {.wi = wi, .distance = distance, .radiance = irradiance, .pdf = 1, .delta = true};
+}
 
 /// The same intensity in all directions.
 struct PointLight {
     Vec3 position{0, 0, 0};
     Color intensity{1}; ///< power per solid angle
 
-    DeltaLightSample sample(Vec3 const& ref) const {
+    LightSample sample(Vec3 const& ref) const {
         Vec3 const d = position - ref;
         float const d2 = length_squared(d);
         if (!(d2 > 0)) return {};
         float const distance = std::sqrt(d2);
-        return {d * (1 / distance), distance, intensity * (1 / d2)};
+        return delta_sample(d * (1 / distance), distance, intensity * (1 / d2));
     }
     Color power() const { return intensity * (4 * kPi); }
     /// Share of the intensity that leaves along `d`.
@@ -33,10 +32,16 @@ struct PointLight {
 
 /// Parallel light from infinitely far away.
 struct DirectionalLight {
+    static constexpr FoundAs found_as = FoundAs::Nothing;
+    static constexpr bool at_infinity = true;
+
     Vec3 direction{0, 1, 0}; ///< unit, towards the light
     Color irradiance{1};     ///< on a surface facing the light
 
-    DeltaLightSample sample(Vec3 const&) const { return {direction, kInfinity, irradiance}; }
+    static constexpr bool has_size() { return false; }
+    /// The same from everywhere.
+    LightSample sample() const { return delta_sample(direction, kInfinity, irradiance); }
+    LightSample sample(LightContext const&, Vec3 const&, Vec2, uint32_t) const { return sample(); }
     /// What crosses a disk of the scene's radius.
     Color power(float scene_radius) const { return irradiance * (kPi * square(scene_radius)); }
 };
@@ -68,9 +73,9 @@ struct SpotLight {
             (std::sin(0.5f * (outer + 0.5f * angle)) * std::sin(0.5f * (outer - 0.5f * angle)));
         return std::min(t * t * (3 - 2 * t), 1.f);
     }
-    DeltaLightSample sample(Vec3 const& ref) const {
-        DeltaLightSample s = PointLight{position, intensity}.sample(ref);
-        if (s.distance > 0) s.irradiance *= attenuation(-s.wi);
+    LightSample sample(Vec3 const& ref) const {
+        LightSample s = PointLight{position, intensity}.sample(ref);
+        if (s.pdf > 0) s.radiance *= attenuation(-s.wi);
         return s;
     }
     /// Linear: 2 pi I (1 - (sin b - sin a) / (b - a)) for the half angles a and b of the two cones.

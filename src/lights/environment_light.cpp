@@ -8,6 +8,10 @@ namespace {
 
 float cubed(float x) { return x * x * x; }
 
+LightSample sample_from(Vec3 const& direction, Color const& radiance, float pdf) {
+    return {.wi = direction, .distance = kInfinity, .radiance = radiance, .pdf = pdf};
+}
+
 } // namespace
 
 Color EnvironmentLight::radiance(shading::Textures const& textures, Vec2 uv) const {
@@ -23,21 +27,21 @@ Color EnvironmentLight::radiance(shading::Textures const& textures, Vec3 const& 
     return radiance(textures, direction_to_uv(to_map.vector(d)));
 }
 
-EnvironmentLight::Sample EnvironmentLight::sample_whole(shading::Textures const& textures,
-                                                        Vec2 u) const {
+LightSample EnvironmentLight::sample_whole(shading::Textures const& textures, Vec2 u) const {
     auto const s = sampler.sample(u);
     Vec3 const d = to_world.vector(s.direction);
     float const stretch = length(d);
-    return {d * (1 / stretch), radiance(textures, s.uv), s.pdf * cubed(stretch)};
+    return sample_from(d * (1 / stretch), radiance(textures, s.uv), s.pdf * cubed(stretch));
 }
 
-EnvironmentLight::Sample EnvironmentLight::sample(shading::Textures const& textures,
-                                                  Vec3 const& ref, Vec2 u) const {
+LightSample EnvironmentLight::sample(LightContext const& context, Vec3 const& ref, Vec2 u,
+                                     uint32_t) const {
+    shading::Textures const& textures = context.textures;
     double const light = portals.light_at(ref);
     if (!(light > 0)) return sample_whole(textures, u);
     if (u.x < whole) {
-        Sample s = sample_whole(textures, {u.x / whole, u.y});
-        s.pdf = whole * s.pdf + (1 - whole) * portals.pdf(ref, light, s.direction);
+        LightSample s = sample_whole(textures, {u.x / whole, u.y});
+        s.pdf = whole * s.pdf + (1 - whole) * portals.pdf(ref, light, s.wi);
         return s;
     }
     auto const s = portals.sample(ref, light, {(u.x - whole) / (1 - whole), u.y});
@@ -47,15 +51,15 @@ EnvironmentLight::Sample EnvironmentLight::sample(shading::Textures const& textu
         float const shrink = 1 / length(m);
         pdf += whole * sampler.pdf(m * shrink) * cubed(shrink);
     }
-    return {s.direction, radiance(textures, s.direction), pdf};
+    return sample_from(s.direction, radiance(textures, s.direction), pdf);
 }
 
-EnvironmentLight::Sample EnvironmentLight::found(shading::Textures const& textures, Vec3 const& ref,
-                                                 Vec3 const& d) const {
+LightSeen EnvironmentLight::seen(LightContext const& context, Vec3 const& ref,
+                                 Vec3 const& d) const {
     Vec3 const m = to_map.vector(d);
     float const shrink = 1 / length(m);
     Vec3 const local = m * shrink;
-    Sample s{d, radiance(textures, direction_to_uv(local)), 0};
+    LightSeen s{radiance(context.textures, direction_to_uv(local)), 0};
     double const light = portals.light_at(ref);
     float const part = light > 0 ? whole : 1;
     if (part > 0) s.pdf = part * sampler.pdf(local) * cubed(shrink);

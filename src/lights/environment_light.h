@@ -8,6 +8,7 @@
 
 #include "base/affine.h"
 #include "lights/environment.h"
+#include "lights/light_sample.h"
 #include "lights/portal.h"
 #include "lights/sky_model.h"
 #include "scene/scene.h"
@@ -16,11 +17,8 @@
 namespace weft::lights {
 
 struct EnvironmentLight {
-    struct Sample {
-        Vec3 direction{0, 0, 1}; ///< unit, in the world
-        Color radiance;
-        float pdf = 0; ///< per solid angle
-    };
+    static constexpr FoundAs found_as = FoundAs::Background;
+    static constexpr bool at_infinity = true;
 
     std::variant<scene::Input<Color>, SkyTable> map;
     /// Between directions, linear, of determinant 1 or -1: most often rotations. A solid angle in
@@ -35,13 +33,12 @@ struct EnvironmentLight {
     Color radiance(shading::Textures const& textures, Vec2 uv) const;
     /// From unit direction `d` in the world.
     Color radiance(shading::Textures const& textures, Vec3 const& d) const;
-    /// To illuminate `ref`.
-    Sample sample(shading::Textures const& textures, Vec3 const& ref, Vec2 u) const;
-    /// What a ray from `ref` along unit `d` finds, and the density with which `sample` does.
-    Sample found(shading::Textures const& textures, Vec3 const& ref, Vec3 const& d) const;
+    static constexpr bool has_size() { return true; }
+    LightSample sample(LightContext const& context, Vec3 const& ref, Vec2 u, uint32_t) const;
+    LightSeen seen(LightContext const& context, Vec3 const& ref, Vec3 const& d) const;
 
   private:
-    Sample sample_whole(shading::Textures const& textures, Vec2 u) const;
+    LightSample sample_whole(shading::Textures const& textures, Vec2 u) const;
 };
 
 } // namespace weft::lights

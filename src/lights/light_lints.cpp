@@ -29,26 +29,28 @@ class LightLints {
 
     std::vector<std::string> all() {
         for (size_t i = 0; i < lights_.size(); ++i) {
-            Light const& light = lights_[int32_t(i)];
-            if (light.controls.weight == 0) continue; // on purpose
+            int32_t const light = int32_t(i);
+            if (lights_.info(light).controls.weight == 0) continue; // on purpose
             look_at_power(light);
             look_around(light);
-            if (auto const* area = std::get_if<AreaLight>(&light.kind)) count_triangles(*area);
+            if (auto const* area = std::get_if<AreaLight>(&lights_.kind(light)))
+                count_triangles(*area);
         }
         look_at_mirrors();
         return std::move(warnings_);
     }
 
   private:
-    void look_at_power(Light const& light);
-    void look_around(Light const& light);
+    void look_at_power(int32_t light);
+    void look_around(int32_t light);
     void count_triangles(AreaLight const& light);
     void look_at_mirrors();
 
-    std::string name_of(Light const& light) const {
-        if (light.source < 0) return "a light";
-        return to_string(location_of(scene_, scene::LightId{light.source})) + ": " +
-               type_of(scene_.lights[size_t(light.source)]);
+    std::string name_of(int32_t light) const {
+        int32_t const source = lights_.info(light).source;
+        if (source < 0) return "a light";
+        return to_string(location_of(scene_, scene::LightId{source})) + ": " +
+               type_of(scene_.lights[size_t(source)]);
     }
     std::string name_of(uint32_t object) const {
         scene::InstanceId const instance{world_.object(object).source_instance};
@@ -73,17 +75,16 @@ class LightLints {
     std::set<std::string> said_;
 };
 
-void LightLints::look_at_power(Light const& light) {
-    if (!(light.power > 0)) {
+void LightLints::look_at_power(int32_t light) {
+    float const power = lights_.info(light).power;
+    if (!(power > 0)) {
         warn(name_of(light) + " gives no light: give it a power, intensity or emission above 0, or "
                               "remove it");
         return;
     }
-    bool const infinite = std::holds_alternative<EnvironmentLight>(light.kind) ||
-                          std::holds_alternative<DirectionalLight>(light.kind) ||
-                          std::holds_alternative<SunDisk>(light.kind);
+    bool const infinite = match(lights_.kind(light), [](auto const& l) { return l.at_infinity; });
     double const section = kPi * std::max(radius_ * radius_, 1e-12);
-    double const irradiance = double(light.power) / (infinite ? section : 4 * section);
+    double const irradiance = double(power) / (infinite ? section : 4 * section);
     if (irradiance < kManySuns * kSun) return;
     warn(
         fmt::format("{} lights the scene {:.1g} times as bright as the sun does: watts or radiance "
@@ -92,7 +93,7 @@ void LightLints::look_at_power(Light const& light) {
 }
 
 void LightLints::count_triangles(AreaLight const& light) {
-    size_t const count = match(light.emitter, [](auto const& e) { return e.primitives(); });
+    size_t const count = light.parts();
     if (count <= kManyTriangles) return;
     warn(fmt::format("{} is a light of {} triangles, each of which is sampled for itself: about {} "
                      "MB; emission on a simpler mesh is found faster",
@@ -150,7 +151,7 @@ bool LightLints::separates(uint32_t object, Vec3 const& a, Vec3 const& b) const 
     return odd;
 }
 
-void LightLints::look_around(Light const& light) {
+void LightLints::look_around(int32_t light) {
     // A few points of its surface, or where it is; what is at infinity cannot be inside of
     // anything.
     std::vector<Vec3> points;
@@ -170,7 +171,7 @@ void LightLints::look_around(Light const& light) {
                    [&](Lamp const& l) { points.push_back(l.luminaire.position()); },
                    [](auto const&) {},
                },
-               light.kind);
+               lights_.kind(light));
     // Rays cannot start further out (Embree's FLT_LARGE), nor is anything there to be inside of.
     constexpr float farthest = 1e18f;
     uint32_t found = UINT32_MAX;
@@ -191,14 +192,8 @@ void LightLints::look_around(Light const& light) {
 void LightLints::look_at_mirrors() {
     size_t point_light = lights_.size();
     for (size_t i = lights_.size(); i-- > 0;)
-        std::visit(Overloaded{
-                       [&](Lamp const& l) {
-                           if (!l.luminaire.ball) point_light = i;
-                       },
-                       [&](DirectionalLight const&) { point_light = i; },
-                       [](auto const&) {},
-                   },
-                   lights_[int32_t(i)].kind);
+        if (!match(lights_.kind(int32_t(i)), [](auto const& l) { return l.has_size(); }))
+            point_light = i;
     if (point_light == lights_.size()) return;
     constexpr int side = 48, picks = 8;
     std::map<uint32_t, int> seen; // object -> rays that meet it as a mirror
@@ -224,7 +219,7 @@ void LightLints::look_at_mirrors() {
     if (most == seen.end() || most->second * 200 < side * side) return; // half a percent
     warn(fmt::format("{} has no size, so the mirrors and clear glass of the picture (such as {}) "
                      "neither show it nor pass its light on: use an area light, or some roughness",
-                     name_of(lights_[int32_t(point_light)]), name_of(most->first)));
+                     name_of(int32_t(point_light)), name_of(most->first)));
 }
 
 } // namespace

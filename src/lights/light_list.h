@@ -19,11 +19,15 @@ inline LightBounds at_infinity() {
 /// Lights, and the leaves that the light tree is to have: one for each light, but for meshes one
 /// for each triangle.
 struct LightList {
-    std::vector<Light> lights;
-    std::vector<LightBounds> bounds;  ///< per leaf
-    std::vector<uint32_t> first_leaf; ///< per light
-    float cross_section = 1;          ///< of the scene, for the power of what shines from infinity
-    int32_t source = -1;              ///< which of the scene's lights the next ones are
+    // Per light:
+    std::vector<LightKind> kinds;
+    std::vector<LightRules> rules;
+    std::vector<LightInfo> infos;
+    std::vector<uint32_t> first_leaf;
+
+    std::vector<LightBounds> bounds; ///< per leaf
+    float cross_section = 1;         ///< of the scene, for the power of what shines from infinity
+    int32_t source = -1;             ///< which of the scene's lights the next ones are
 
     /// `leaves`: their powers are the luminance of what each emits in all.
     void add(LightKind kind, std::span<LightBounds const> leaves,

@@ -23,8 +23,11 @@ class LightTable {
     /// std::runtime_error where memory is short.
     LightTable(LightList list, shading::Textures textures, world::World const& world);
 
-    size_t size() const { return lights_.size(); }
-    Light const& operator[](int32_t i) const { return lights_[size_t(i)]; }
+    size_t size() const { return kinds_.size(); }
+    // `i`: below size().
+    LightKind const& kind(int32_t i) const { return kinds_[size_t(i)]; }
+    LightRules const& rules(int32_t i) const { return rules_[size_t(i)]; }
+    LightInfo const& info(int32_t i) const { return infos_[size_t(i)]; }
     /// The light that samples an object of the world; -1: none.
     int32_t of_object(uint32_t object) const {
         return light_of_object_.empty() ? -1 : light_of_object_[object];
@@ -49,12 +52,16 @@ class LightTable {
     /// Radiance from unit direction `d` of all lights infinitely far away that rays can meet, each
     /// with the density with which `sample` gives that direction: calls f(light, radiance, pdf).
     template <class F>
-    void environment(LitPoint const& at, Vec3 const& d, F&& f) const {
+    void background(world::World const& world, LitPoint const& at, Vec3 const& d, F&& f) const {
         FeatureScope const scope(Feature::LightSampling);
-        for (int32_t i : environments_) {
-            Found const found = match(lights_[size_t(i)].kind,
-                                      [&](auto const& light) { return found_at(light, at.p, d); });
-            f(i, found.radiance, chance(at, first_leaf_[size_t(i)]) * found.pdf);
+        for (int32_t i : background_) {
+            LightSeen const seen = match(kind(i), [&](auto const& light) -> LightSeen {
+                if constexpr (std::decay_t<decltype(light)>::found_as == FoundAs::Background)
+                    return light.seen(context(world), at.p, d);
+                else
+                    return {}; // `background_` has none of these
+            });
+            f(i, seen.radiance, chance(at, first_leaf_[size_t(i)]) * seen.pdf);
         }
     }
 
@@ -65,22 +72,21 @@ class LightTable {
     bool has_controls() const { return has_controls_; }
     /// Whether these depend on the kind of scattering.
     bool has_controls_by_kind() const { return has_controls_by_kind_; }
-    /// Whether any lamp of a size is not hidden from the camera.
+    /// Whether any lamp with a size is not hidden from the camera.
     bool camera_sees_lamps() const { return camera_sees_lamps_; }
 
     /// Radiance of all lamps that the ray meets before its t_max, each with the density with which
     /// `sample` at `at`, a point on the ray's line, gives its direction: calls f(light, p,
     /// radiance, pdf) with the point where it is met.
     template <class F>
-    void lamps(world::Ray const& ray, LitPoint const& at, F&& f) const {
+    void lamps(world::World const& world, world::Ray const& ray, LitPoint const& at, F&& f) const {
         if (!lamps_) return;
         FeatureScope const scope(Feature::LightSampling);
         lamps_->each(ray, at.p, [&](LampScene::Meeting const& met) {
-            auto const& lamp = std::get<Lamp>(lights_[size_t(met.light)].kind);
+            auto const& lamp = std::get<Lamp>(kind(met.light));
             Vec3 const p = ray.origin + ray.direction * met.t;
-            float const pdf = chance(at, first_leaf_[size_t(met.light)]) *
-                              lamp.luminaire.ball->pdf(at.p, p, met.n);
-            f(met.light, p, radiance(lamp, -ray.direction), pdf);
+            float const pdf = chance(at, first_leaf_[size_t(met.light)]) * lamp.pdf(at.p, p, met.n);
+            f(met.light, p, lamp.radiance(context(world), -ray.direction), pdf);
         });
     }
 
@@ -99,38 +105,15 @@ class LightTable {
     LightSample sample_chosen(world::World const& world, LightTree::Choice const& choice,
                               Vec3 const& ref, Vec2 u) const;
 
-    /// What a ray that leaves the scene finds of a light.
-    struct Found {
-        Color radiance;
-        float pdf = 0; ///< per solid angle, of the light alone
-    };
-    Found found_at(EnvironmentLight const& light, Vec3 const& ref, Vec3 const& d) const;
-    Found found_at(SunDisk const& light, Vec3 const& ref, Vec3 const& d) const;
-    template <class Other>
-    Found found_at(Other const&, Vec3 const&, Vec3 const&) const {
-        return {};
-    }
-    /// What the lamp's image lets through along `d`, away from it.
-    Color gobo(Lamp const& lamp, Vec3 const& d) const;
-    Color radiance(Lamp const& lamp, Vec3 const& d) const {
-        return lamp.luminaire.radiance(d) * gobo(lamp, d);
-    }
-    LightSample sample_light(world::World const&, Lamp const&, Vec3 const& ref, Vec2 u,
-                             uint32_t) const;
-    LightSample sample_light(world::World const&, DirectionalLight const&, Vec3 const& ref, Vec2,
-                             uint32_t) const;
-    LightSample sample_light(world::World const&, AreaLight const&, Vec3 const& ref, Vec2 u,
-                             uint32_t part) const;
-    LightSample sample_light(world::World const&, EnvironmentLight const&, Vec3 const& ref, Vec2 u,
-                             uint32_t) const;
-    LightSample sample_light(world::World const&, SunDisk const&, Vec3 const&, Vec2 u,
-                             uint32_t) const;
+    LightContext context(world::World const& world) const { return {world, textures_}; }
 
-    std::vector<Light> lights_;
+    std::vector<LightKind> kinds_;
+    std::vector<LightRules> rules_;
+    std::vector<LightInfo> infos_;
     std::vector<uint32_t> first_leaf_;     ///< of the tree, per light
     std::vector<uint32_t> light_of_leaf_;  ///< empty where each light has one leaf
     std::vector<int32_t> light_of_object_; ///< empty where no object is a light
-    std::vector<int32_t> environments_;    ///< lights that rays meet infinitely far away
+    std::vector<int32_t> background_;      ///< lights that are found as FoundAs::Background
     std::unique_ptr<LampScene> lamps_;     ///< null: no lamp has a size
     bool camera_sees_lamps_ = false;
     bool has_controls_ = false, has_controls_by_kind_ = false;

@@ -27,9 +27,9 @@ struct PhotometricLight {
 
     /// Candela along `d` (any length but 0).
     float attenuation(Vec3 const& d) const;
-    DeltaLightSample sample(Vec3 const& ref) const {
-        DeltaLightSample s = PointLight{position, intensity}.sample(ref);
-        if (s.distance > 0) s.irradiance *= attenuation(-s.wi);
+    LightSample sample(Vec3 const& ref) const {
+        LightSample s = PointLight{position, intensity}.sample(ref);
+        if (s.pdf > 0) s.radiance *= attenuation(-s.wi);
         return s;
     }
     Color power() const { return intensity * float(luminous_flux(*lamp)); }

@@ -32,7 +32,7 @@ float cone_share(SunDisk const& sun, Vec3 const& d) {
 
 } // namespace
 
-SunDisk::Sample SunDisk::sample(Vec2 u) const {
+LightSample SunDisk::sample(Vec2 u) const {
     Vec2 const p = square_to_disk(u);
     // The share of the light within the radius of p, then that of the cone.
     float const r2 = p.x * p.x + p.y * p.y;
@@ -42,8 +42,10 @@ SunDisk::Sample SunDisk::sample(Vec2 u) const {
     float const h = (1 - one_minus_x) * one_minus_cos; // 1 - cos theta
     float const scale = r2 > 0 ? safe_sqrt(h * (2 - h) / r2) : 0;
     Frame const frame(direction);
-    return {normalize(frame.to_world({p.x * scale, p.y * scale, 1 - h})),
-            centre * darkening(one_minus_x, limb), density(*this, one_minus_x)};
+    return {.wi = normalize(frame.to_world({p.x * scale, p.y * scale, 1 - h})),
+            .distance = kInfinity,
+            .radiance = centre * darkening(one_minus_x, limb),
+            .pdf = density(*this, one_minus_x)};
 }
 
 float SunDisk::pdf(Vec3 const& d) const {

@@ -12,9 +12,9 @@
 // radiance to density exceeds its value at the centre.
 #pragma once
 
-#include "base/color.h"
 #include "base/frame.h"
 #include "base/warp.h"
+#include "lights/light_sample.h"
 
 namespace weft::lights {
 
@@ -28,19 +28,23 @@ inline constexpr Color kSunLimb{0.456f, 0.508f, 0.605f};
 inline constexpr float kLeastSunRadius = 1e-6f;
 
 struct SunDisk {
-    struct Sample {
-        Vec3 direction{0, 0, 1}; ///< unit, towards the light
-        Color radiance;
-        float pdf = 0; ///< per solid angle; > 0
-    };
+    static constexpr FoundAs found_as = FoundAs::Background;
+    static constexpr bool at_infinity = true;
 
     Vec3 direction{0, 1, 0}; ///< unit, towards the centre
     float one_minus_cos = 1; ///< of the angular radius, in (0, 2]: 2 is the whole sphere
     Color centre{1};         ///< L_0
     Color limb{Color(0)};    ///< alpha per channel, >= 0
 
-    /// Uniform in u over what it emits.
-    Sample sample(Vec2 u) const;
+    static constexpr bool has_size() { return true; }
+    /// Uniform in u over what it emits; the same for all.
+    LightSample sample(Vec2 u) const;
+    LightSample sample(LightContext const&, Vec3 const&, Vec2 u, uint32_t) const {
+        return sample(u);
+    }
+    LightSeen seen(LightContext const&, Vec3 const&, Vec3 const& d) const {
+        return {radiance(d), pdf(d)};
+    }
     /// That `sample` gives the unit direction `d`; 0 off the disk.
     float pdf(Vec3 const& d) const;
     /// From the unit direction `d`, towards the light; black off the disk.

@@ -19,7 +19,7 @@ std::string light_text(lights::Stage const& stage, PathEvent const& e) {
     int32_t object = e.object;
     for (uint32_t i = 0; object < 0 && e.light >= 0 && i < world.object_count(); ++i)
         if (stage.lights().of_object(i) == e.light) object = int32_t(i);
-    std::string const group = e.light >= 0 ? stage.lights()[e.light].controls.group : "";
+    std::string const group = e.light >= 0 ? stage.lights().info(e.light).controls.group : "";
     return (e.light >= 0 ? fmt::format("light {}", e.light) : "an emission that is no light") +
            (object >= 0 ? " on '" + object_name(world, uint32_t(object)) + "'" : "") +
            (group.empty() ? "" : " of the group '" + group + "'");

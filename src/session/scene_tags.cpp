@@ -22,12 +22,12 @@ void add_light_groups(lights::Stage const& stage, film::SceneTags& tags) {
     lights::LightTable const& lights = stage.lights();
     for (size_t i = 0; i < lights.size(); ++i)
         tags.group_of_light.push_back(
-            group_index(tags.light_groups, lights[int32_t(i)].controls.group));
+            group_index(tags.light_groups, lights.info(int32_t(i)).controls.group));
     for (world::Model const& model : world.models())
         group_index(tags.light_groups, model.traits.group);
     for (world::AreaObject const& area : world.area_objects()) {
         int32_t const light = lights.of_object(area.object);
-        if (lights[light].controls.group.empty())
+        if (lights.info(light).controls.group.empty())
             tags.group_of_light[size_t(light)] =
                 group_index(tags.light_groups, world.model(area.object).traits.group);
     }

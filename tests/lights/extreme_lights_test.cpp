@@ -41,7 +41,7 @@ TEST(ExtremeLights, APowerBeyondFloatsLeavesTheOthersTheirSamples) {
     auto const scene = scene_with(R"(<light type="point" position="0,4,0" intensity="1e38"/>
         <light type="point" position="0,-4,0" intensity="10"/>)");
     EXPECT_EQ(lit_samples(scene, Vec3(0, 3, 0)), 1000);
-    EXPECT_TRUE(std::isfinite(scene.stage->lights()[0].power));
+    EXPECT_TRUE(std::isfinite(scene.stage->lights().info(0).power));
 }
 
 } // namespace

@@ -165,8 +165,8 @@ double contribution(Lamp const& lamp, Place const& at, Vec2 u) {
             EmitterSample const s = l.sample(at.ref, u, 0);
             return s.pdf > 0 && dot(s.n, s.wi) < 0 ? received(s.wi) / double(s.pdf) : 0.0;
         } else {
-            DeltaLightSample const s = l.sample(at.ref);
-            return s.distance > 0 ? received(s.wi) * double(s.irradiance.r) : 0.0;
+            LightSample const s = l.sample(at.ref);
+            return s.pdf > 0 ? received(s.wi) * double(s.radiance.r) : 0.0;
         }
     });
 }

@@ -113,8 +113,8 @@ TEST(PhotometricLight, angles_turn_counter_clockwise_from_above) {
     EXPECT_NEAR(light.attenuation({1e-6f, 0, -1}), 1, 1e-3);
     EXPECT_NEAR(light.attenuation({1e-6f, 0, 1}), 3, 1e-3);
     EXPECT_NEAR(light.attenuation({1, 0, -1}), 1.5f, 1e-4);
-    DeltaLightSample const s = light.sample({0, 2, 5});
-    EXPECT_NEAR(s.irradiance.r, 3, 1e-4); // 12 at distance 2
+    LightSample const s = light.sample({0, 2, 5});
+    EXPECT_NEAR(s.radiance.r, 3, 1e-4); // 12 at distance 2
 }
 
 TEST(PhotometricLight, flux_is_the_integral_of_the_candela) {

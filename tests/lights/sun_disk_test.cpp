@@ -40,7 +40,7 @@ TEST(SunDisk, directions_follow_the_density) {
         std::vector<double> observed(rings * sectors), expected(rings * sectors);
         Rng rng(41);
         for (int i = 0; i < samples; ++i) {
-            Vec3d const d(c.sun.sample(rng.next2()).direction);
+            Vec3d const d(c.sun.sample(rng.next2()).wi);
             Vec3d const local(dot(d, Vec3d(frame.s)), dot(d, Vec3d(frame.t)),
                               dot(d, Vec3d(frame.n)));
             double const h = 0.5 * length_squared(d - Vec3d(c.sun.direction));
@@ -77,9 +77,9 @@ TEST(SunDisk, samples_agree_with_what_rays_find) {
         for (int i = 0; i < 20'000; ++i) {
             auto const s = c.sun.sample(rng.next2());
             ASSERT_GT(s.pdf, 0);
-            ASSERT_NEAR(length(s.direction), 1, 1e-6);
-            Color const seen = c.sun.radiance(s.direction);
-            disagree += std::abs(c.sun.pdf(s.direction) / s.pdf - 1) > 2e-3f ||
+            ASSERT_NEAR(length(s.wi), 1, 1e-6);
+            Color const seen = c.sun.radiance(s.wi);
+            disagree += std::abs(c.sun.pdf(s.wi) / s.pdf - 1) > 2e-3f ||
                         std::abs(seen.g / s.radiance.g - 1) > 2e-3f;
         }
         // Where rounding moves a direction at the rim, whose radiance falls with infinite slope.
@@ -94,7 +94,7 @@ TEST(SunDisk, irradiance_is_what_was_asked_for) {
         std::vector<double> red, blue;
         for (int i = 0; i < 100'000; ++i) {
             auto const s = c.sun.sample(rng.next2());
-            double const cosine = double(dot(s.direction, c.sun.direction) / s.pdf);
+            double const cosine = double(dot(s.wi, c.sun.direction) / s.pdf);
             red.push_back(double(s.radiance.r) * cosine);
             blue.push_back(double(s.radiance.b) * cosine);
         }
