@@ -27,6 +27,14 @@ Picked sample_lobe(L const& lobe, Vec3 const& wo, Vec3 const& u) {
     }
 }
 
+/// Mirrors `wi` at the plane across unit `ng`.
+Vec3 fold(Vec3 const& wi, Vec3 const& ng) { return wi - ng * (2 * dot(wi, ng)); }
+
+/// Returns whether `wi`, which is `local` in the frame, is on one side of both normals.
+bool same_sides(LobeFrame const& frame, Vec3 const& wi, Vec3 const& local) {
+    return dot(wi, frame.ng) * local.z > 0;
+}
+
 } // namespace
 
 // Materials are refused when they are compiled if they may have too many lobes. So this is a
@@ -53,14 +61,15 @@ inline LobeValue Bsdf::eval_local(Span const& span, Vec3 const& wo, Vec3 const& 
 }
 
 inline LobeValue Bsdf::eval_folded(Span const& span, Vec3 const& wo, Vec3 const& wi) const {
-    Vec3 const wo_local = span.frame.to_local(wo), wi_local = span.frame.to_local(wi);
-    float const height = dot(wi, geometric_normal_);
+    auto const& [shading, ng] = span.frame;
+    Vec3 const wo_local = shading.to_local(wo), wi_local = shading.to_local(wi);
+    float const height = dot(wi, ng);
     LobeValue value;
     if (height * wi_local.z > 0) value = eval_local(span, wo_local, wi_local);
     // Where the normals are one this is -wi_local.z, and nothing is folded.
-    float const folded_z = wi_local.z - 2 * height * dot(span.frame.n, geometric_normal_);
+    float const folded_z = wi_local.z - 2 * height * dot(shading.n, ng);
     if (folded_z * height > 0) [[unlikely]] {
-        LobeValue const v = eval_local(span, wo_local, span.frame.to_local(fold(wi)));
+        LobeValue const v = eval_local(span, wo_local, shading.to_local(fold(wi, ng)));
         value.f += v.f;
         value.pdf += v.pdf;
     }
@@ -86,7 +95,7 @@ LobeValue Bsdf::eval(Vec3 const& wo, Vec3 const& wi) const {
 Color Bsdf::albedo(Vec3 const& wo) const {
     Color sum;
     for (int i = 0; i < count_; ++i) {
-        Vec3 const local = frames_[lobes_[i].frame].to_local(wo);
+        Vec3 const local = frame(lobes_[i]).to_local(wo);
         sum += lobes_[i].weight *
                match(lobes_[i].kind, [&](auto const& l) { return l.albedo(local); });
     }
@@ -149,14 +158,14 @@ BsdfSample Bsdf::sample(Vec3 const& wo, Vec3 const& u, bool by_part) const {
     Lobe const& lobe = lobes_[picked];
     Vec3 const u_lobe{u.x, u.y, std::min(rest / lobe.pick, kOneMinusEpsilon)};
 
-    Frame const& frame = frames_[lobe.frame];
-    Vec3 const wo_local = frame.to_local(wo);
+    LobeFrame const& frame = frames_[lobe.frame];
+    Vec3 const wo_local = frame.shading.to_local(wo);
     Picked const p =
         match(lobe.kind, [&](auto const& l) { return sample_lobe(l, wo_local, u_lobe); });
-    Vec3 wi = frame.to_world(p.wi);
-    if (!same_sides(wi, p.wi)) {
-        wi = fold(wi);
-        if (!same_sides(wi, p.wi)) return {}; // a failure: the zero vector is on no side
+    Vec3 wi = frame.shading.to_world(p.wi);
+    if (!same_sides(frame, wi, p.wi)) {
+        wi = fold(wi, frame.ng);
+        if (!same_sides(frame, wi, p.wi)) return {}; // a failure: the zero vector is on no side
     }
 
     BsdfSample result{wi, {}, 0, {p.kind, !(p.wi.z > 0)}, p.eta_scale, lobe.layer};

@@ -1,8 +1,8 @@
 // A BSDF as a flat list of weighted lobes, each around one of a few shading frames.
 //
 // Most surfaces have one frame. A layer with a normal map of its own adds another, and so does a
-// highlight that is stretched along a turned axis. `use_frame` chooses the frame of the lobes that
-// are added after it.
+// highlight that is stretched along a turned axis, and a fibre. `use_frame` chooses the frame of
+// the lobes that are added after it.
 //
 // Materials add lobes, and `prepare` decides how often each is picked. `sample` picks one, samples
 // it, and then evaluates the *whole* list, so that value and density cannot disagree (single-sample
@@ -66,6 +66,15 @@ inline float width_of(Lobe const& lobe) {
     return match(lobe.kind, [](auto const& l) { return l.width(); });
 }
 
+/// What a lobe lies around.
+struct LobeFrame {
+    Frame shading; ///< n is on wo's side
+    Vec3 ng{0, 0,
+            1}; ///< unit, on wo's side: geometric normal that tells reflection from transmission
+
+    friend bool operator==(LobeFrame const&, LobeFrame const&) = default;
+};
+
 struct BsdfSample {
     Vec3 wi{0, 0, 0};
     Color weight;          ///< f |cos wi| / pdf
@@ -83,8 +92,8 @@ class Bsdf {
 
     /// An empty list around one frame, n of which is on wo's side. The room for lobes stays
     /// uninitialised: what is not used costs no time.
-    Bsdf(Frame const& shading_frame, Vec3 const& ng_facing_wo) : geometric_normal_(ng_facing_wo) {
-        frames_[0] = shading_frame;
+    Bsdf(Frame const& shading_frame, Vec3 const& ng_facing_wo) {
+        frames_[0] = {shading_frame, ng_facing_wo};
     }
     Bsdf(Bsdf const& o) { copy(o); }
     Bsdf& operator=(Bsdf const& o) {
@@ -93,13 +102,16 @@ class Bsdf {
     }
 
     /// Returns the frame that the list was made with: that of the surface itself.
-    Frame const& frame() const { return frames_[0]; }
+    Frame const& frame() const { return frames_[0].shading; }
     /// Returns the frame of a lobe of this list.
-    Frame const& frame(Lobe const& lobe) const { return frames_[lobe.frame]; }
+    Frame const& frame(Lobe const& lobe) const { return frames_[lobe.frame].shading; }
 
-    /// Lobes added from here on lie around `frame`, whose n is on wo's side. Frames that no lobe
-    /// lies around take no room.
-    void use_frame(Frame const& frame) {
+    /// Lobes added from here on lie around `shading`, whose n is on wo's side, of the surface
+    /// itself. Frames that no lobe lies around take no room.
+    void use_frame(Frame const& shading) { use_frame({shading, frames_[0].ng}); }
+    /// The same for lobes of something else than the surface: a fibre has a geometric normal of its
+    /// own.
+    void use_frame(LobeFrame const& frame) {
         for (current_frame_ = 0; current_frame_ < frame_count_; ++current_frame_)
             if (frames_[current_frame_] == frame) return;
         frames_[frame_count_] = frame;
@@ -136,7 +148,7 @@ class Bsdf {
         for (int i = 0; i < count_; ++i) f(lobes_[i], eval_one(i, wo, wi).f);
     }
     /// Returns whether wi is on wo's side of the geometric surface.
-    bool reflects(Vec3 const& wi) const { return dot(wi, geometric_normal_) > 0; }
+    bool reflects(Vec3 const& wi) const { return dot(wi, frames_[0].ng) > 0; }
 
     /// Returns what `eval` would if the list had only the lobes of one part (see kParts): that of
     /// the kind `part`.
@@ -172,7 +184,7 @@ class Bsdf {
     /// A run of lobes that share a frame.
     struct Span {
         int begin, end;
-        Frame const& frame;
+        LobeFrame const& frame;
     };
     Span lobes_from(int first) const {
         int end = first + 1;
@@ -199,22 +211,12 @@ class Bsdf {
         if (!is_delta(flags.kind)) smooth_sides_ |= flags.sides;
     }
 
-    bool same_sides(Vec3 const& wi, Vec3 const& local) const {
-        return dot(wi, geometric_normal_) * local.z > 0;
-    }
-
-    /// Mirrors `wi` at the geometric tangent plane.
-    Vec3 fold(Vec3 const& wi) const {
-        return wi - geometric_normal_ * (2 * dot(wi, geometric_normal_));
-    }
-
     /// Returns what the lobes of one frame send towards `wi`, with what they send to its fold.
     LobeValue eval_folded(Span const& span, Vec3 const& wo, Vec3 const& wi) const;
     LobeValue eval_one(int i, Vec3 const& wo, Vec3 const& wi) const;
     LobeValue eval_local(Span const& span, Vec3 const& wo, Vec3 const& wi) const;
 
     void copy(Bsdf const& o) {
-        geometric_normal_ = o.geometric_normal_;
         std::copy_n(o.frames_, std::max(o.frame_count_, o.current_frame_ + 1), frames_);
         frame_count_ = o.frame_count_;
         current_frame_ = o.current_frame_;
@@ -226,9 +228,8 @@ class Bsdf {
 
     int count_ = 0, frame_count_ = 1, current_frame_ = 0;
     Sides sides_{}, smooth_sides_{}; ///< of all lobes, and of those that `eval` adds up
-    Vec3 geometric_normal_;          ///< on wo's side
     union {
-        Frame frames_[capacity + 2]; ///< the surface's, one per lobe, and one still unused
+        LobeFrame frames_[capacity + 2]; ///< the surface's, one per lobe, and one still unused
     };
     union {
         Lobe lobes_[capacity]; ///< the first count_ are alive

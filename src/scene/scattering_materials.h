@@ -197,9 +197,7 @@ struct Hair {
     }
 };
 template <>
-struct MaterialTraits<Hair> : IsOpaque, IsWholeAndDark, HasNoParts {
-    static constexpr bool is_null_boundary = false;
-    static constexpr bool can_be_part = false;
+struct MaterialTraits<Hair> : IsSurface, IsOpaque, IsWholeAndDark, HasNoParts {
     static bool needs_tangents(Hair const&) { return true; }
 };
 

@@ -174,15 +174,13 @@ void LobeBuilder::operator()(scene::Hair const& m, Values const& at) const {
     p.sigma_a = m.coloring == scene::HairColor::melanin
                     ? lobes::sigma_a_from_melanin(at(m.eumelanin), at(m.pheomelanin))
                     : lobes::sigma_a_from_color(at(m.color), p.beta_n);
-    // The strip stands for a round fibre: its normal turns with v from one edge to the other.
-    Frame const along(frame.n, point.dpdu);
-    Vec3 const& tangent = along.s;
+    // The strip stands for a round fibre: its normal turns from one edge to the other.
+    auto const [tangent, h] = fibre_at(point);
     Vec3 const side = cross(tangent, view.wo);
     if (!(length_squared(side) > 1e-12f)) return; // seen along the fibre
-    float const h = std::clamp(2 * (point.uv.y - std::floor(point.uv.y)) - 1, -0.999f, 0.999f);
     Vec3 const across = normalize(side), facing = cross(across, tangent);
     Vec3 const n = facing * std::sqrt(1 - h * h) - across * h;
-    to.bsdf = lobes::Bsdf(Frame(tangent, cross(n, tangent), n), n);
+    to.bsdf.use_frame({Frame(tangent, cross(n, tangent), n), n});
     add(Color(1), lobes::Hair(p, h));
 }
 

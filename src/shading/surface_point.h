@@ -52,6 +52,18 @@ inline Frame tangent_frame(SurfacePoint const& s, Vec3 const& normal) {
     return frame;
 }
 
+/// The round fibre that a surface stands for, whose strip or curve has u along it and v across.
+struct Fibre {
+    Vec3 tangent{1, 0, 0}; ///< unit, along the fibre to its tip
+    float offset = 0;      ///< from edge to edge of its width, in (-1, 1); 0 in the middle
+};
+
+/// Returns the fibre at a point whose tangents are known.
+inline Fibre fibre_at(SurfacePoint const& s) {
+    float const v = s.uv.y - std::floor(s.uv.y);
+    return {Frame(s.ns, s.dpdu).s, std::clamp(2 * v - 1, -0.999f, 0.999f)};
+}
+
 /// A ray origin just off the surface, on the side that `direction` points to: far enough that the
 /// ray cannot meet the surface again by rounding (Pharr, Jakob and Humphreys 2016, 3.9.5). The
 /// distance follows from the coordinates' own size, so no scene is too large or too small.

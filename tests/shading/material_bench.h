@@ -71,15 +71,16 @@ inline Vec3 towards(float cosine, float azimuth = 0.4f) {
 }
 
 /// The power per unit of cosine-weighted light sent towards `wi`: what `eval` says, where crossing
-/// to another index does not scale it. For lists around one frame, on a patch whose normals agree.
+/// to another index does not scale it. For a patch whose normals agree.
 inline Color power(lobes::Bsdf const& bsdf, Vec3 const& wo, Vec3 const& wi) {
-    Vec3 const o = bsdf.frame().to_local(wo), i = bsdf.frame().to_local(wi);
     Color sum(0);
-    for (int k = 0; k < bsdf.size(); ++k)
+    for (int k = 0; k < bsdf.size(); ++k) {
+        Vec3 const o = bsdf.frame(bsdf[k]).to_local(wo), i = bsdf.frame(bsdf[k]).to_local(wi);
         match(bsdf[k].kind, [&](auto const& lobe) {
             if constexpr (lobes::SmoothLobe<std::remove_cvref_t<decltype(lobe)>>)
                 sum += bsdf[k].weight * lobe.eval(o, i).f * eta_scale_towards(lobe, i);
         });
+    }
     return sum;
 }
 
