@@ -14,6 +14,9 @@
 
 namespace weft::sampling {
 
+/// Four words side by side.
+using Words4 [[gnu::vector_size(16)]] = uint32_t;
+
 constexpr uint32_t reverse_bits(uint32_t x) {
     x = ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
     x = ((x >> 2) & 0x33333333u) | ((x & 0x33333333u) << 2);
@@ -21,18 +24,20 @@ constexpr uint32_t reverse_bits(uint32_t x) {
     return __builtin_bswap32(x);
 }
 
-/// Reverses two words at the price of one: both halves are reversed and stay in their place.
-constexpr uint64_t reverse_bits_of_halves(uint64_t x) {
-    x = ((x >> 1) & 0x5555555555555555u) | ((x & 0x5555555555555555u) << 1);
-    x = ((x >> 2) & 0x3333333333333333u) | ((x & 0x3333333333333333u) << 2);
-    x = ((x >> 4) & 0x0f0f0f0f0f0f0f0fu) | ((x & 0x0f0f0f0f0f0f0f0fu) << 4);
-    x = __builtin_bswap64(x);
-    return (x >> 32) | (x << 32);
+/// The same for each of four words.
+inline Words4 reverse_bits(Words4 x) {
+    x = ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
+    x = ((x >> 2) & 0x33333333u) | ((x & 0x33333333u) << 2);
+    x = ((x >> 4) & 0x0f0f0f0fu) | ((x & 0x0f0f0f0fu) << 4);
+    using Bytes [[gnu::vector_size(16)]] = uint8_t;
+    return Words4(__builtin_shufflevector(Bytes(x), Bytes(x), 3, 2, 1, 0, 7, 6, 5, 4, 11, 10, 9, 8,
+                                          15, 14, 13, 12));
 }
 
 /// Scrambles reversed digits: bit k of the result depends on bits 0 .. k of `x` alone, and for
-/// fixed lower bits it is bit k of `x` or its complement.
-constexpr uint32_t owen_scramble_reversed(uint32_t x, uint32_t seed) {
+/// fixed lower bits it is bit k of `x` or its complement. `Word`: uint32_t or Words4.
+template <class Word>
+constexpr Word owen_scramble_reversed(Word x, Word seed) {
     x ^= x * 0x3d20adeau;
     x += seed;
     x *= (seed >> 16) | 1;

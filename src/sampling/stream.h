@@ -114,7 +114,7 @@ class SampleStream {
         assert(components(d) >= 2);
         uint64_t const h = key(d, vertex);
         if (kind_ != SamplerKind::Sobol) return {other(d, vertex, 0, h), other(d, vertex, 1, h)};
-        return sobol2(shuffled_index(h), h, hash64(h));
+        return sobol2(shuffled_index(h), h);
     }
 
     Vec3 get3(Dimension d, uint32_t vertex = 0) const {
@@ -122,11 +122,7 @@ class SampleStream {
         uint64_t const h = key(d, vertex);
         if (kind_ != SamplerKind::Sobol)
             return {other(d, vertex, 0, h), other(d, vertex, 1, h), other(d, vertex, 2, h)};
-        uint32_t const index = shuffled_index(h);
-        uint64_t const g = hash64(h);
-        Vec2 const xy = sobol2(index, h, g);
-        uint32_t const z = owen_scramble_reversed(sobol_reversed_2(index), uint32_t(g >> 32));
-        return {xy.x, xy.y, to_unit_float(reverse_bits(z))};
+        return sobol3(shuffled_index(h), h);
     }
 
     /// A sequential generator for the loops whose length is not known beforehand (tracking
@@ -144,11 +140,19 @@ class SampleStream {
         return reverse_bits(owen_scramble_reversed(reversed_sample_, uint32_t(h)));
     }
 
-    static Vec2 sobol2(uint32_t index, uint64_t h, uint64_t g) {
-        uint32_t const x = owen_scramble_reversed(index, uint32_t(h >> 32));
-        uint32_t const y = owen_scramble_reversed(sobol_reversed_1(index), uint32_t(g));
-        uint64_t const digits = reverse_bits_of_halves(uint64_t(y) << 32 | x);
-        return {to_unit_float(uint32_t(digits)), to_unit_float(uint32_t(digits >> 32))};
+    static Vec2 sobol2(uint32_t index, uint64_t h) {
+        Vec3 const p = scrambled(Words4{index, sobol_reversed_1(index)}, h);
+        return {p.x, p.y};
+    }
+    static Vec3 sobol3(uint32_t index, uint64_t h) {
+        return scrambled(Words4{index, sobol_reversed_1(index), sobol_reversed_2(index)}, h);
+    }
+    /// Scrambles each of the first three words by its own part of `h` and makes numbers of them.
+    static Vec3 scrambled(Words4 digits, uint64_t h) {
+        uint64_t const g = hash64(h);
+        Words4 const seeds{uint32_t(h >> 32), uint32_t(g), uint32_t(g >> 32)};
+        digits = reverse_bits(owen_scramble_reversed(digits, seeds));
+        return {to_unit_float(digits[0]), to_unit_float(digits[1]), to_unit_float(digits[2])};
     }
 
     /// Component number `i` of the Halton and independent streams.

@@ -38,15 +38,20 @@ TEST(Sobol, AgreesWithTheTextbookRecurrence) {
     }
 }
 
-TEST(Owen, ReversingTwoWordsReversesEach) {
+TEST(Owen, FourWordsAreAsEach) {
     Rng rng(2);
     for (int i = 0; i < 1000; ++i) {
-        uint32_t const a = rng.next_uint(), b = rng.next_uint();
-        uint64_t const both = reverse_bits_of_halves(uint64_t(a) << 32 | b);
-        ASSERT_EQ(uint32_t(both), reverse_bits(b));
-        ASSERT_EQ(uint32_t(both >> 32), reverse_bits(a));
-        ASSERT_EQ(reverse_bits(reverse_bits(a)), a);
-        ASSERT_EQ(reverse_bits(a) & 1, a >> 31);
+        Words4 const words{rng.next_uint(), rng.next_uint(), rng.next_uint(), rng.next_uint()};
+        Words4 const seeds{rng.next_uint(), rng.next_uint(), rng.next_uint(), rng.next_uint()};
+        Words4 const reversed = reverse_bits(words),
+                     scrambled = owen_scramble_reversed(words, seeds);
+        for (int k = 0; k < 4; ++k) {
+            uint32_t const word = words[k], seed = seeds[k];
+            ASSERT_EQ(reversed[k], reverse_bits(word));
+            ASSERT_EQ(scrambled[k], owen_scramble_reversed(word, seed));
+            ASSERT_EQ(reverse_bits(reverse_bits(word)), word);
+            ASSERT_EQ(reverse_bits(word) & 1, word >> 31);
+        }
     }
 }
 
