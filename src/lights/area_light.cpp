@@ -4,6 +4,19 @@
 
 namespace weft::lights {
 
+std::vector<Vec3> AreaLight::places() const {
+    std::vector<Vec3> points;
+    match(emitter, [&](auto const& e) {
+        Vec3 const from = e.box().high + (e.box().high - e.box().low);
+        for (uint32_t i = 0; i < 4; ++i) {
+            EmitterSample const s =
+                e.sample(from, {0.2f + 0.2f * float(i), 0.4f}, e.primitives() / 4 * i);
+            if (s.pdf > 0) points.push_back(s.p + s.n * (1e-4f * extent));
+        }
+    });
+    return points;
+}
+
 LightSample AreaLight::sample(LightContext const& context, Vec3 const& ref, Vec2 u,
                               uint32_t part) const {
     EmitterSample const s = match(emitter, [&](auto const& e) {

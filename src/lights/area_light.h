@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "base/match.h"
 #include "lights/emitter_geometry.h"
@@ -32,6 +33,8 @@ struct AreaLight {
     uint32_t parts() const {
         return match(emitter, [](auto const& e) { return e.primitives(); });
     }
+    /// Returns a few points just off its surface.
+    std::vector<Vec3> places() const;
     LightSample sample(LightContext const& context, Vec3 const& ref, Vec2 u, uint32_t part) const;
     /// Returns the density per solid angle with which `sample` gives `point` of the part `part`.
     float pdf(Vec3 const& ref, shading::SurfacePoint const& point, uint32_t part) const;

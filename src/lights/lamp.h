@@ -1,6 +1,8 @@
 // A point or a ball that shines, through an image or not.
 #pragma once
 
+#include <vector>
+
 #include "lights/light_sample.h"
 #include "lights/luminaire.h"
 #include "shading/textures.h"
@@ -21,6 +23,7 @@ struct Lamp {
     std::optional<Gobo> gobo;
 
     bool has_size() const { return luminaire.ball.has_value(); }
+    std::vector<Vec3> places() const { return {luminaire.position()}; }
     LightSample sample(LightContext const& context, Vec3 const& ref, Vec2 u, uint32_t part) const;
     /// Returns the radiance of its ball along `d`, of any length but 0, away from it.
     Color radiance(LightContext const& context, Vec3 const& d) const;

@@ -152,26 +152,13 @@ bool LightLints::separates(uint32_t object, Vec3 const& a, Vec3 const& b) const 
 }
 
 void LightLints::look_around(int32_t light) {
-    // A few points of its surface, or where it is; what is at infinity cannot be inside of
-    // anything.
+    // What is at infinity cannot be inside of anything.
     std::vector<Vec3> points;
     int32_t own = -1;
-    std::visit(Overloaded{
-                   [&](AreaLight const& l) {
-                       own = int32_t(l.object);
-                       match(l.emitter, [&](auto const& e) {
-                           Vec3 const from = e.box().high + (e.box().high - e.box().low);
-                           for (uint32_t i = 0; i < 4; ++i) {
-                               uint32_t const part = e.primitives() / 4 * i;
-                               auto const s = e.sample(from, {0.2f + 0.2f * float(i), 0.4f}, part);
-                               if (s.pdf > 0) points.push_back(s.p + s.n * (1e-4f * l.extent));
-                           }
-                       });
-                   },
-                   [&](Lamp const& l) { points.push_back(l.luminaire.position()); },
-                   [](auto const&) {},
-               },
-               lights_.kind(light));
+    match(lights_.kind(light), [&]<class L>(L const& l) {
+        if constexpr (!L::at_infinity) points = l.places();
+        if constexpr (L::found_as == FoundAs::Object) own = int32_t(l.object);
+    });
     // Rays cannot start further out (Embree's FLT_LARGE), nor is anything there to be inside of.
     constexpr float farthest = 1e18f;
     uint32_t found = UINT32_MAX;

@@ -7,7 +7,9 @@
 //   sample(context, ref, u, part)
 //                   a LightSample at `ref` by u in [0, 1)^2: of its part `part`, where it has
 //                   several; `pdf` is that of the light alone, 0 where nothing was sampled
-// and what is found in the background also
+// and, where its light comes from a place,
+//   places()        a few points at or just off it
+// and, where it is found in the background,
 //   seen(context, ref, d)
 //                   what a ray from `ref` along unit `d` sees of it
 #pragma once

@@ -103,6 +103,8 @@ struct RayVisibility {
 
 /// What is seen of a member of a group: what a group hides, its members do not show.
 constexpr RayVisibility inherit(RayVisibility const& outer, RayVisibility const& own) {
+    // A name for each: a new one does not compile before there is something to say of it here.
+    [[maybe_unused]] auto const& [camera, diffuse, glossy, transmission, volume, shadow] = own;
     return {outer.camera && own.camera, outer.diffuse && own.diffuse,
             outer.glossy && own.glossy, outer.transmission && own.transmission,
             outer.volume && own.volume, outer.shadow && own.shadow};
@@ -166,6 +168,10 @@ struct InstanceTraits {
 /// outer instance sets replaces what the member has. But both may hide it, make it a holdout or a
 /// shadow catcher, and put it into sets.
 inline InstanceTraits inherit(InstanceTraits const& outer, InstanceTraits const& own) {
+    // A name for each: a new one does not compile before there is something to say of it here.
+    [[maybe_unused]] auto const& [own_sets, group, bsdf, emission, normal, alpha, volume, medium,
+                                  priority, visibility, holdout, shadow_catcher, trace_distance] =
+        own;
     InstanceTraits const unset;
     auto pick = [&](auto InstanceTraits::*member) {
         return outer.*member != unset.*member ? outer.*member : own.*member;

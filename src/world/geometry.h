@@ -1,9 +1,15 @@
 // The kinds of geometry that a world is made of.
 //
-// All that depends on the kind is a function with an overload per kind, declared at the end of this
-// file. The functions of one kind stand in one source: triangle_mesh.cpp, sphere.cpp, disk.cpp. Who
-// has a `Geometry` calls them through `match`, so a new kind does not compile before it has all of
-// them. How a kind becomes a light is the affair of lights/build_area_lights.cpp.
+// Every kind states, with no default,
+//
+//   kernel_tells_place   whether the kernel's u and v say where a hit is; else `nearest` does
+//   needs_local          whether `point_on` and `uv_at` ask for the place in the kind's own space
+//   made_of()            what tells it from others of its kind; null: nothing
+//
+// All else that depends on the kind is a function with an overload per kind, declared at the end of
+// this file. The functions of one kind stand in one source: triangle_mesh.cpp, sphere.cpp,
+// disk.cpp. Who has a `Geometry` calls them through `match`, so a new kind does not compile before
+// it has all of them. How a kind becomes a light is the affair of lights/build_area_lights.cpp.
 //
 // A geometry lies in its own space: the unit sphere, the unit disk, a mesh as its file has it. The
 // vertices of a mesh that stands in one place alone are stored in world space instead, and its own
@@ -15,6 +21,7 @@
 #include <variant>
 #include <vector>
 
+#include "scene/shape.h"
 #include "shading/surface_point.h"
 #include "world/edge_hits.h"
 #include "world/embree.h"
@@ -43,6 +50,9 @@ struct MeshData {
 
 /// A triangle mesh. What every hit asks for is at hand; the rest is in `data`.
 struct TriangleMesh {
+    static constexpr bool kernel_tells_place = true, needs_local = false;
+    void const* made_of() const { return data; }
+
     Vertex const* vertices;
     scene::Mesh::Triangle const* triangles;
     MeshData const* data;
@@ -55,10 +65,16 @@ struct TriangleMesh {
 };
 /// The sphere of radius 1 around the origin.
 struct Sphere {
+    static constexpr bool kernel_tells_place = true, needs_local = true;
+    static constexpr void const* made_of() { return nullptr; }
+
     friend bool operator==(Sphere, Sphere) = default;
 };
 /// The disk of radius 1 around the origin in the plane z = 0.
 struct Disk {
+    static constexpr bool kernel_tells_place = false, needs_local = false;
+    static constexpr void const* made_of() { return nullptr; }
+
     friend bool operator==(Disk, Disk) = default;
 };
 
@@ -67,7 +83,7 @@ using Geometry = std::variant<TriangleMesh, Sphere, Disk>;
 /// Where a geometry was met.
 struct Contact {
     Hit hit;
-    Vec3 local{0, 0, 0}; ///< the place in the geometry's own space; a mesh does without
+    Vec3 local{0, 0, 0}; ///< the place in the geometry's own space, for kinds that need it
     /// Of the object; none: the geometry's own space is the world's.
     std::optional<ObjectSpace> space;
     bool tangents = false; ///< whether something looks at dpdu and dpdv
@@ -92,6 +108,7 @@ struct Enclosure {
 
 // The functions of every kind.
 //
+//   geometry_of(shape)               returns the geometry of a shape of the scene that is one
 //   point_on(g, contact, point)      fills in what the surface is at a contact: position and its
 //                                    error, normals, uv, tangents. `contact.local` is of any length
 //                                    on a sphere.
@@ -105,6 +122,9 @@ struct Enclosure {
 //   make_kernel_geometry(g, device, to_world)
 //                                    returns it for the kernel, put to where it stands; not yet
 //                                    committed. A mesh that lies in world space ignores `to_world`.
+
+inline Sphere geometry_of(scene::Sphere const&) { return {}; }
+inline Disk geometry_of(scene::Disk const&) { return {}; }
 
 void point_on(TriangleMesh const&, Contact const&, shading::SurfacePoint&);
 void point_on(Sphere const&, Contact const&, shading::SurfacePoint&);

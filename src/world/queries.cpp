@@ -65,15 +65,12 @@ RTCRay to_kernel(Ray const& ray) {
 } // namespace
 
 void World::complete(Hit& hit, Vec3 const& origin, Vec3 const& direction, bool local) const {
-    match(model(hit.object).geometry,
-          Overloaded{
-              [&](Disk const& disk) {
-                  Vec3 const p = origin + direction * hit.t;
-                  nearest(disk, local ? p : space_of(hit.object).to_object.point(p), hit);
-              },
-              [](TriangleMesh const&) {},
-              [](Sphere const&) {},
-          });
+    match(model(hit.object).geometry, [&]<class G>(G const& geometry) {
+        if constexpr (!G::kernel_tells_place) {
+            Vec3 const p = origin + direction * hit.t;
+            nearest(geometry, local ? p : space_of(hit.object).to_object.point(p), hit);
+        }
+    });
 }
 
 Hit World::filtered_hit(RTCFilterFunctionNArguments const* args) const {

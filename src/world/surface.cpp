@@ -14,28 +14,21 @@ Contact World::contact(Hit const& hit) const {
 }
 
 Vec3 World::local_place(Hit const& hit, Vec3 const& ng) const {
-    // The normal of a sphere says where on it a hit is.
-    bool const is_local = model(hit.object).instanced;
-    return match(model(hit.object).geometry,
-                 Overloaded{
-                     [&](Sphere const&) {
-                         return is_local ? ng : space_of(hit.object).to_object.vector(ng);
-                     },
-                     [](TriangleMesh const&) { return Vec3(0); },
-                     [](Disk const&) { return Vec3(0); },
-                 });
+    Model const& m = model(hit.object);
+    return match(m.geometry, [&]<class G>(G const&) {
+        if constexpr (G::needs_local)
+            return m.instanced ? ng : space_of(hit.object).to_object.vector(ng);
+        else
+            return Vec3(0);
+    });
 }
 
 shading::SurfacePoint World::surface(Ray const& ray, Hit const& hit) const {
     Contact contact = this->contact(hit);
-    match(model(hit.object).geometry, Overloaded{
-                                          [&](Sphere const&) {
-                                              Vec3 const p = ray.origin + ray.direction * hit.t;
-                                              contact.local = contact.space->to_object.point(p);
-                                          },
-                                          [](TriangleMesh const&) {},
-                                          [](Disk const&) {},
-                                      });
+    match(model(hit.object).geometry, [&]<class G>(G const&) {
+        if constexpr (G::needs_local)
+            contact.local = contact.space->to_object.point(ray.origin + ray.direction * hit.t);
+    });
     return point_at(contact, -ray.direction, ray.cone);
 }
 

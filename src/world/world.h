@@ -205,7 +205,8 @@ class World {
     // What filters ask. `ng`, the geometric normal, and `direction`, along which the hit is seen,
     // are as the kernel has them: in the object's own space, where it is instanced.
 
-    /// Returns the place in the object's own space, as contacts have it.
+    /// Returns the place in the object's own space as contacts have it, in any length: only round
+    /// kinds need it, and their normal says where a hit is.
     Vec3 local_place(Hit const& hit, Vec3 const& ng) const;
     float opacity(Hit const& hit, Vec3 const& ng, Vec3 const& direction) const;
     /// Returns the part of light that goes straight through.

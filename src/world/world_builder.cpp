@@ -137,14 +137,6 @@ void WorldBuilder::add_object(scene::Shape const& shape, int32_t instance, Inher
     world_.has_media_ |= model.is_null || model.medium >= 0;
 }
 
-WorldBuilder::Placed WorldBuilder::place(scene::Sphere const&, Affined const& to_world) {
-    return {Sphere{}, !keeps_kind(Sphere{}, to_world)};
-}
-
-WorldBuilder::Placed WorldBuilder::place(scene::Disk const&, Affined const& to_world) {
-    return {Disk{}, !keeps_kind(Disk{}, to_world)};
-}
-
 WorldBuilder::Placed WorldBuilder::place(scene::Rectangle const&, Affined const& to_world) {
     return {TriangleMesh(add_mesh(rectangle_, false, to_world)), false, true};
 }
@@ -194,8 +186,7 @@ MeshData const& WorldBuilder::add_mesh(std::shared_ptr<scene::Mesh const> mesh, 
 }
 
 WorldBuilder::GeometryKey WorldBuilder::key_of(Geometry const& geometry) {
-    auto const* mesh = std::get_if<TriangleMesh>(&geometry);
-    return {geometry.index(), mesh ? mesh->data : nullptr};
+    return {geometry.index(), match(geometry, [](auto const& g) { return g.made_of(); })};
 }
 
 /// Objects that emit have a model each, since a light may change what they emit.
@@ -203,7 +194,7 @@ uint32_t WorldBuilder::model_of(Placed const& placed, scene::InstanceTraits cons
                                 int32_t instance) {
     // Traits that are not hashed make the search longer, not wrong.
     auto const [kind, mesh] = key_of(placed.geometry);
-    size_t hash = std::hash<MeshData const*>()(mesh) + kind;
+    size_t hash = std::hash<void const*>()(mesh) + kind;
     for (int32_t part : {traits.bsdf.index, traits.normal.index, traits.alpha.texture.index,
                          traits.volume.index, traits.medium.index, int32_t(placed.instanced),
                          traits.priority, std::bit_cast<int32_t>(traits.alpha.value)})

@@ -33,8 +33,13 @@ class WorldBuilder {
     void add_area_object(uint32_t object, scene::LightId light);
     void add_object(scene::Shape const& shape, int32_t instance, Inherited const& given);
 
-    Placed place(scene::Sphere const&, Affined const& to_world);
-    Placed place(scene::Disk const&, Affined const& to_world);
+    /// Shapes that are a kind of geometry.
+    template <class S>
+    requires requires(S const& shape) { geometry_of(shape); }
+    Placed place(S const& shape, Affined const& to_world) {
+        auto const geometry = geometry_of(shape);
+        return {geometry, !keeps_kind(geometry, to_world)};
+    }
     Placed place(scene::Rectangle const&, Affined const& to_world);
     Placed place(scene::MeshShape const& shape, Affined const& to_world);
     Placed place(scene::Group const&, Affined const& to_world);
@@ -71,7 +76,7 @@ class WorldBuilder {
         bool filtered = false; ///< some instance needs a filter
     };
     /// Which geometry it is: the kind, and what a mesh is made of.
-    using GeometryKey = std::pair<size_t, MeshData const*>;
+    using GeometryKey = std::pair<size_t, void const*>;
     static GeometryKey key_of(Geometry const& geometry);
 
     World& world_;
