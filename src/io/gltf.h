@@ -34,7 +34,7 @@ struct GltfContents {
     std::vector<std::string> warnings;    ///< what could not be taken over, and where it stands
 };
 
-/// Whether the name ends like that of a glTF file.
+/// Returns whether the name ends like that of a glTF file.
 bool is_gltf(std::string_view path);
 
 /// Appends what the file shows (its default scene) to `scene`. `contents` of the scene is left

@@ -23,7 +23,7 @@ class TextureReader {
     /// To be called before the textures of a material for meshes that have `vertices`. `uv_set`
     /// is the mesh's own set of uvs.
     void begin(VertexData const& vertices, uint64_t uv_set);
-    /// What the textures read since then need of the mesh.
+    /// Returns what the textures read since then need of the mesh.
     MeshUvs const& uvs() const { return uvs_; }
 
     /// `factor` times the colour of the texture that the texture info `key` of `owner` names

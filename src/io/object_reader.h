@@ -24,7 +24,7 @@ std::span<std::string const> definition_tags();
 bool is_definition_tag(std::string_view tag);
 /// Where the parameter `name` of an object stands; the object's own place where it is not given.
 SourceLocation const& location_of(XmlElement const& element, std::string_view name);
-/// Whether the element has an attribute of this name, or a child that is called so.
+/// Returns whether the element has an attribute of this name, or a child called so.
 bool is_given(XmlElement const& element, std::string_view name);
 
 /// Throws unless the element names this type: the only one that its category has.

@@ -55,7 +55,7 @@ class SceneBuilder {
     scene::Texture const& texture(scene::TextureId id) const {
         return scene_.textures[size_t(id.index)];
     }
-    /// What a node gives.
+    /// Returns the type of what a node gives.
     scene::ValueType type_of(scene::TextureId id) { return facts_.type_of(id); }
 
     /// Reads one element of a category with several types.

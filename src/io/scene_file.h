@@ -30,7 +30,7 @@ struct SceneFile {
 SceneFile read_scene_file(std::string const& path, std::vector<std::string> const& overrides = {},
                           std::shared_ptr<image::TextureCache> textures = {});
 
-/// As read_scene_file, for text in memory.
+/// Does what read_scene_file does, for text in memory.
 SceneFile parse_scene(std::string_view text, std::string const& name, std::string const& folder,
                       std::vector<std::string> const& overrides = {},
                       std::shared_ptr<image::TextureCache> textures = {});

@@ -27,7 +27,7 @@ inline constexpr int kMaxNesting = 200;
 /// nesting beyond kMaxNesting, an include that is missing or cyclic, an unknown name in `${}`.
 std::unique_ptr<XmlElement> read_xml(std::string const& path);
 
-/// As read_xml, for text in memory (includes are looked for in `folder`).
+/// Does what read_xml does, for text in memory; includes are looked for in `folder`.
 std::unique_ptr<XmlElement> parse_xml(std::string_view text, std::string const& name,
                                       std::string const& folder);
 

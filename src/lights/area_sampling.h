@@ -21,8 +21,8 @@ inline constexpr double kFarRadius2 = 0.15;
 /// solid angle has no digits left.
 inline constexpr float kMinSolidAngle = 1e-6f;
 
-/// Whether an emitter is sampled by area: `radius2` is the square of the radius of a sphere around
-/// it, `distance2` that of the distance of the sphere's centre from the reference point.
+/// Returns whether an emitter is sampled by area: `radius2` is the square of the radius of a sphere
+/// around it, `distance2` that of the distance of the sphere's centre from the reference point.
 inline bool is_far(double radius2, double distance2) { return radius2 < kFarRadius2 * distance2; }
 
 /// The density per solid angle of a point chosen uniformly by area, at a squared distance; 0 where

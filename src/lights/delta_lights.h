@@ -26,7 +26,7 @@ struct PointLight {
         return delta_sample(d * (1 / distance), distance, intensity * (1 / d2));
     }
     Color power() const { return intensity * (4 * kPi); }
-    /// Share of the intensity that leaves along `d`.
+    /// Returns the share of the intensity that leaves along `d`.
     float attenuation(Vec3 const&) const { return 1; }
 };
 
@@ -42,7 +42,7 @@ struct DirectionalLight {
     /// The same from everywhere.
     LightSample sample() const { return delta_sample(direction, kInfinity, irradiance); }
     LightSample sample(LightContext const&, Vec3 const&, Vec2, uint32_t) const { return sample(); }
-    /// What crosses a disk of the scene's radius.
+    /// Returns what crosses a disk of the scene's radius.
     Color power(float scene_radius) const { return irradiance * (kPi * square(scene_radius)); }
 };
 
@@ -58,7 +58,7 @@ struct SpotLight {
     float falloff = 0;     ///< how much wider the dark edge is, full angle in radians, >= 0
     bool smooth = false;   ///< a smoothstep rather than a line
 
-    /// Share of the intensity that leaves along `d` (any length but 0), in [0, 1].
+    /// Returns the share of the intensity along `d` (any length but 0), in [0, 1].
     float attenuation(Vec3 const& d) const {
         // atan2 rather than acos: narrow spots live where the cosine has no digits left.
         float const theta = std::atan2(length(cross(axis, d)), dot(axis, d));
@@ -78,8 +78,8 @@ struct SpotLight {
         if (s.pdf > 0) s.radiance *= attenuation(-s.wi);
         return s;
     }
-    /// Linear: 2 pi I (1 - (sin b - sin a) / (b - a)) for the half angles a and b of the two cones.
-    /// Smooth: 2 pi I (1 - (cos a + cos b) / 2), as a smoothstep is 1/2 in the mean.
+    /// Returns, linear: 2 pi I (1 - (sin b - sin a) / (b - a)) for the half angles a and b of the
+    /// two cones. Smooth: 2 pi I (1 - (cos a + cos b) / 2), as a smoothstep is 1/2 in the mean.
     Color power() const {
         double const pi = std::numbers::pi;
         double const a = std::min(0.5 * angle, pi);

@@ -63,7 +63,7 @@ class RectangleEmitter {
     Vec3 normal() const { return Vec3(normal_); }
     EmitterSample at_uv(Vec3 const& ref, Vec2 uv) const;
     float area_by_uv(Vec2) const { return area_; }
-    /// Steradians at `ref`, either side, of what is within reach.
+    /// Returns the solid angle at `ref`, on either side, of what is within reach.
     float solid_angle(Vec3 const& ref) const;
 
   private:
@@ -184,7 +184,7 @@ class MeshEmitter {
     Vec3 centre() const { return (box_.low + box_.high) * 0.5f; }
     Box box() const { return box_; }
     Box box(uint32_t primitive) const;
-    /// By the barycentric weights of vertices 1 and 2.
+    /// Returns the point by the barycentric weights of vertices 1 and 2.
     Vec3 point(uint32_t primitive, Vec2 b) const;
     Vec2 uv(uint32_t primitive, Vec2 b) const;
     /// Unit, on the front; NaN where there is no area.

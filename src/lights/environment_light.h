@@ -29,9 +29,9 @@ struct EnvironmentLight {
     float whole = 0; ///< the part of samples that is not sent through portals where they are seen
     Color tint{1};   ///< a factor on an input
 
-    /// At lat-long coordinates.
+    /// Returns the radiance at lat-long coordinates.
     Color radiance(shading::Textures const& textures, Vec2 uv) const;
-    /// From unit direction `d` in the world.
+    /// Returns the radiance from unit direction `d` in the world.
     Color radiance(shading::Textures const& textures, Vec3 const& d) const;
     static constexpr bool has_size() { return true; }
     LightSample sample(LightContext const& context, Vec3 const& ref, Vec2 u, uint32_t) const;

@@ -38,9 +38,9 @@ LightBounds bounds_of(SphereEmitter const& emitter, uint32_t primitive = 0);
 LightBounds bounds_of(DiskEmitter const& emitter, uint32_t primitive = 0);
 LightBounds bounds_of(MeshEmitter const& emitter, uint32_t primitive);
 
-/// What bounds both, which are at finite places. Powers add up.
+/// Returns what bounds both, which are at finite places. Powers add up.
 LightBounds unite(LightBounds const& a, LightBounds const& b);
-/// What bounds all of at least one: as `unite`, but tighter, around the mean of the axes.
+/// Returns what bounds all of at least one: tighter, around the mean of the axes.
 LightBounds unite(std::span<LightBounds const> all);
 
 /// M_Omega of the paper: the integral of cos(max(0, theta - theta_o)) over the directions up to

@@ -23,7 +23,7 @@ class LightBuilder {
     LightTable build();
 
   private:
-    /// A light's brightness, at least 0. Throws InputError where it varies.
+    /// Returns a light's brightness, at least 0. Throws InputError where it varies.
     Color brightness(scene::Input<Color> const& input, std::string const& title);
     /// The gobo of a spot, if there is one, and how much it lets through: the mean, weighted by
     /// what the spot sends there.
@@ -41,7 +41,7 @@ class LightBuilder {
     void add_light(scene::AreaLight const&, SourceLocation const&) {}
     void add_area_lights();
     AreaLight make_area_light(uint32_t object) const;
-    /// Whether rays find what sampling of the light leaves.
+    /// Returns whether rays find what sampling of the light leaves.
     bool is_compensated(scene::LightControls const& controls) const;
     /// `light` without its portals and `to_map`.
     void add_environment(EnvironmentLight light, std::span<scene::PortalId const> portals,

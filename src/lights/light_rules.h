@@ -22,7 +22,7 @@ struct Arrival {
     float distance = 0;             ///< from the light
 };
 
-/// Whether light sampling has to find all of the light, even where strategies are combined.
+/// Returns whether light sampling has to find all light, even where strategies are combined.
 bool is_sampled_alone(scene::LightControls const& controls);
 
 struct LightRules {
@@ -38,7 +38,7 @@ struct LightRules {
     LightRules(scene::LightControls const& controls, LightBounds const& bounds, float power,
                float cross_section);
 
-    /// What part of the light counts.
+    /// Returns the part of the light that counts.
     float factor(Arrival const& to) const {
         if (to.bounces == 0) return by_ray_kind_[size_t(RayKind::camera)];
         bool const indirect = to.bounces > 1;
@@ -47,11 +47,11 @@ struct LightRules {
         if (indirect && irradiance(to.p) < min_contribution_) return 0;
         return (indirect ? indirect_ : direct_) * by_ray_kind_[size_t(to.kind)];
     }
-    /// Objects tell their lights which rays do not meet them.
+    /// Takes away what rays of that kind see: they do not meet the light's object.
     void hide_from(RayKind kind);
 
   private:
-    /// On a facing surface, roughly.
+    /// Returns the irradiance on a facing surface, roughly.
     float irradiance(Vec3 const& p) const {
         return at_infinity_ ? intensity_
                             : intensity_ / std::max(length_squared(p - centre_), radius_squared_);

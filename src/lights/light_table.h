@@ -28,11 +28,11 @@ class LightTable {
     LightKind const& kind(int32_t i) const { return kinds_[size_t(i)]; }
     LightRules const& rules(int32_t i) const { return rules_[size_t(i)]; }
     LightInfo const& info(int32_t i) const { return infos_[size_t(i)]; }
-    /// The light that samples an object of the world; -1: none.
+    /// Returns the light that samples an object of the world; -1: none.
     int32_t of_object(uint32_t object) const {
         return light_of_object_.empty() ? -1 : light_of_object_[object];
     }
-    /// Whether no light is ever sampled.
+    /// Returns whether no light is ever sampled.
     bool empty() const { return tree_.empty(); }
     /// Calls f(LightSample) for each light that is chosen to illuminate `at`, with a point on it:
     /// none, one, or up to `at.choices` different ones, whose contributions add up. u.z chooses the
@@ -46,7 +46,7 @@ class LightTable {
             if (s.pdf > 0) f(s);
         });
     }
-    /// The density with which `sample` gives a point that a ray found on the light.
+    /// Returns the density with which `sample` gives a point that a ray found on the light.
     float pdf(int32_t light, LitPoint const& at, shading::SurfacePoint const& point) const;
 
     /// Radiance from unit direction `d` of all lights infinitely far away that rays can meet, each
@@ -65,14 +65,14 @@ class LightTable {
         }
     }
 
-    /// What choosing among the lights takes, in bytes.
+    /// Returns what choosing among the lights takes, in bytes.
     size_t memory_bytes() const;
 
-    /// Whether any light heeds controls (scene/light_controls.h).
+    /// Returns whether any light heeds controls (scene/light_controls.h).
     bool has_controls() const { return has_controls_; }
-    /// Whether these depend on the kind of scattering.
+    /// Returns whether these depend on the kind of scattering.
     bool has_controls_by_kind() const { return has_controls_by_kind_; }
-    /// Whether any lamp with a size is not hidden from the camera.
+    /// Returns whether any lamp with a size is not hidden from the camera.
     bool camera_sees_lamps() const { return camera_sees_lamps_; }
 
     /// Radiance of all lamps that the ray meets before its t_max, each with the density with which
@@ -98,7 +98,7 @@ class LightTable {
             hash_combine(std::bit_cast<uint32_t>(u.x), std::bit_cast<uint32_t>(u.y));
         return double(u.z) + double(rest) * 0x1p-56;
     }
-    /// That a leaf of the tree is among those that `sample` chooses.
+    /// Returns the chance that a leaf of the tree is among those that `sample` chooses.
     float chance(LitPoint const& at, uint32_t leaf) const {
         return tree_.probability(at.p, at.n, leaf, at.choices);
     }

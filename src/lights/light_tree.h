@@ -67,12 +67,12 @@ class LightTree {
     size_t memory_bytes() const {
         return nodes_.size() * sizeof(Node) + places_.size() * sizeof(Place);
     }
-    /// No light of positive power.
+    /// Returns whether no light has a positive power.
     bool empty() const { return root_ == kNone && infinite_.empty(); }
     /// `ref`: the point to be lit; `normal`: its unit normal, or 0 in a medium; u in [0, 1). A
     /// float has too few digits to tell a million lights apart.
     Choice choose(Vec3 const& ref, Vec3 const& normal, double u) const;
-    /// That `choose` gives the light `index`: the same number to the last bit.
+    /// Returns the chance that `choose` gives the light `index`: the same to the last bit.
     float probability(Vec3 const& ref, Vec3 const& normal, uint32_t index) const;
 
     /// Splitting: up to `count` different lights, each handed to f(Choice) with the chance that it
@@ -88,7 +88,7 @@ class LightTree {
             f(c);
         }
     }
-    /// That `choose_each` gives the light `index`.
+    /// Returns the chance that `choose_each` gives the light `index`.
     float probability(Vec3 const& ref, Vec3 const& normal, uint32_t index, uint32_t count) const {
         return chance_of_several(probability(ref, normal, index), count);
     }

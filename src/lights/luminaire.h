@@ -35,7 +35,7 @@ struct Luminaire {
     Vec3 position() const {
         return match(source, [](auto const& s) { return s.position; });
     }
-    /// Radiance of the ball along `d`, of any length but 0, away from it.
+    /// Returns the radiance of the ball along `d`, of any length but 0, away from it.
     Color radiance(Vec3 const& d) const {
         return match(source, [&](auto const& s) { return s.intensity * s.attenuation(d); }) *
                (kInvPi / square(radius));
@@ -47,7 +47,7 @@ struct Luminaire {
 
 Luminaire make_luminaire(LuminaireSource source, float radius);
 
-/// Distance along the ray from `origin` along unit `direction` to where it meets the ball that
+/// Returns the distance from `origin` along unit `direction` to where a ray meets the ball that
 /// shines on `from`, a point of the ray's line that light sampling starts from: the near side, or
 /// the far one where `from` is inside. `n`: the unit outward normal there. Negative: not met.
 double distance_to_ball(Vec3 const& centre, float radius, Vec3 const& origin, Vec3 const& direction,
@@ -61,20 +61,20 @@ struct GoboProjection {
     float scale = 1; ///< 1 / (2 tan) of the outer cone's half angle, which is below 90 degrees
 
     GoboProjection(Vec3 const& axis, Vec3 const& up, float outer_angle);
-    /// (u, v) of the direction `d`, at an acute angle to the axis.
+    /// Returns (u, v) of the direction `d`, at an acute angle to the axis.
     Vec2 uv(Vec3 const& d) const {
         Vec3 const local = frame.to_local(d);
         float const s = scale / local.z;
         return {0.5f + s * local.x, 0.5f + s * local.y};
     }
-    /// The direction at uv, of any length.
+    /// Returns the direction at uv, of any length.
     Vec3 direction(Vec2 uv) const {
         return frame.to_world({(uv.x - 0.5f) / scale, (uv.y - 0.5f) / scale, 1});
     }
 };
 
-/// The frame around unit `n` whose s lies along `towards` as far as possible; along z where that is
-/// n's own direction.
+/// Returns the frame around unit `n` whose s lies along `towards` as far as can be; along z where
+/// that is n's own direction.
 Frame lamp_frame(Vec3 const& n, Vec3 const& towards);
 
 } // namespace weft::lights

@@ -50,9 +50,9 @@ class PortalMap {
 
     /// Where `ref` sees the portal; false from behind it.
     bool window(Vec3 const& ref, Window& w) const;
-    /// What shines in through the window.
+    /// Returns what shines in through the window.
     double integral(Window const& w) const;
-    /// In proportion to what shines in through the window, whose integral is > 0.
+    /// Samples in proportion to what shines in through the window, whose integral is > 0.
     Sample sample(Window const& w, Vec2 u) const;
     /// The map at a unit direction; 0 outside of the window.
     float density(Window const& w, Vec3 const& direction) const;
@@ -79,7 +79,7 @@ class PortalSampler {
     explicit PortalSampler(std::vector<PortalMap> maps) : maps_(std::move(maps)) {}
 
     bool empty() const { return maps_.empty(); }
-    /// What shines in at `ref` by all portals; 0 where it sees none.
+    /// Returns what shines in at `ref` by all portals; 0 where it sees none.
     double light_at(Vec3 const& ref) const;
     /// `light`: light_at(ref), > 0.
     Sample sample(Vec3 const& ref, double light, Vec2 u) const;

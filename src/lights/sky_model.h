@@ -32,8 +32,8 @@ class SkyModel {
     /// `turbidity`: 1 (pure air) to 10 (haze). `albedo` of the ground, 0 to 1. `elevation` of the
     /// sun, radians.
     SkyModel(double turbidity, double albedo, double elevation);
-    /// From a direction `theta` from the zenith, at most pi / 2, and `gamma` from the sun, in
-    /// radians; W/(m^2 sr).
+    /// Returns the light from a direction `theta` from the zenith, at most pi / 2, and `gamma` from
+    /// the sun, in radians; W/(m^2 sr).
     Color radiance(double theta, double gamma) const;
 
   private:
@@ -43,10 +43,11 @@ class SkyModel {
     Channel channels_[3]; ///< X, Y, Z
 };
 
-/// On a surface that faces the sun, W/m^2.
+/// Returns the irradiance on a surface that faces the sun, W/m^2.
 Color sun_irradiance(double turbidity, double elevation);
 
-/// What shines from the sky and back from the ground, over the lat-long square (lat_long.h).
+/// Returns what shines from the sky and back from the ground, over the lat-long square
+/// (lat_long.h).
 struct SkyTable {
     int width = 1, height = 1;
     std::vector<Color> texels; ///< row by row from v = 0 (+y, the zenith)

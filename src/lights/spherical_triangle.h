@@ -23,7 +23,7 @@
 
 namespace weft::lights {
 
-/// From a to b to c with the shorter way around each side; less than a hemisphere.
+/// A triangle from a to b to c with the shorter way around each side; less than a hemisphere.
 class SphericalTriangle {
   public:
     /// A corner as seen from the reference point, and the edges from there to the other two.

@@ -19,9 +19,9 @@ class Stage {
 
     world::World const& world() const { return *world_; }
     LightTable const& lights() const { return lights_; }
-    /// Whether lights or objects heed controls.
+    /// Returns whether lights or objects heed controls.
     bool has_controls() const { return world_->has_controls() || lights_.has_controls(); }
-    /// Whether these depend on the kind of scattering.
+    /// Returns whether these depend on the kind of scattering.
     bool has_controls_by_kind() const {
         return world_->has_controls_by_kind() || lights_.has_controls_by_kind();
     }

@@ -37,7 +37,7 @@ struct SunDisk {
     Color limb{Color(0)};    ///< alpha per channel, >= 0
 
     static constexpr bool has_size() { return true; }
-    /// Uniform in u over what it emits; the same for all.
+    /// Samples uniformly in u over what it emits; the same for all points.
     LightSample sample(Vec2 u) const;
     LightSample sample(LightContext const&, Vec3 const&, Vec2 u, uint32_t) const {
         return sample(u);
@@ -45,11 +45,11 @@ struct SunDisk {
     LightSeen seen(LightContext const&, Vec3 const&, Vec3 const& d) const {
         return {radiance(d), pdf(d)};
     }
-    /// That `sample` gives the unit direction `d`; 0 off the disk.
+    /// Returns the density with which `sample` gives unit `d`; 0 off the disk.
     float pdf(Vec3 const& d) const;
-    /// From the unit direction `d`, towards the light; black off the disk.
+    /// Returns the radiance from unit `d`, towards the light; black off the disk.
     Color radiance(Vec3 const& d) const;
-    /// On a surface that faces the centre (of a disk of at most a hemisphere).
+    /// Returns the irradiance on a surface that faces the centre; at most a hemisphere.
     Color irradiance() const;
 };
 

@@ -35,8 +35,9 @@ class Report {
     }
 };
 
-/// What rules ask about the objects that an object refers to. Each fact is found once; objects may
-/// be added to the scene meanwhile. All ids must lead to objects, and none may contain itself.
+/// Answers what rules ask about the objects that an object refers to. Each fact is found once;
+/// objects may be added to the scene meanwhile. All ids must lead to objects, and none may contain
+/// itself.
 class Facts {
   public:
     explicit Facts(Scene const& scene) : scene_(scene) {}
@@ -45,7 +46,7 @@ class Facts {
     /// Returns the type of what a node gives.
     ValueType type_of(TextureId id);
 
-    /// What an instance amounts to, the members of groups included.
+    /// Returns what an instance amounts to, the members of groups included.
     struct Census {
         double objects = -1; ///< may exceed any integer
         bool emits = false;

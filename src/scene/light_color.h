@@ -48,7 +48,7 @@ struct LightColor {
     friend constexpr bool operator==(LightColor const&, LightColor const&) = default;
 };
 
-/// What the brightness that a light gives is multiplied by; exactly 1 for the defaults.
+/// Returns the factor on the brightness that a light gives; exactly 1 for the defaults.
 inline Color scale_of(LightColor const& color, LightUnit unit = LightUnit::radiometric) {
     float const stops = color.exposure == 0 ? 1 : std::exp2(color.exposure);
     float const factor = unit == LightUnit::photometric ? stops / kLumensPerWatt : stops;

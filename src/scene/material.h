@@ -250,11 +250,11 @@ decltype(auto) with_traits(Material const& material, F&& f) {
     });
 }
 
-/// Whether the material has no surface of its own: rays pass straight on.
+/// Returns whether the material has no surface of its own: rays pass straight on.
 inline bool is_null_boundary(Material const& material) {
     return with_traits(material, []<class T>(auto const&) -> bool { return T::is_null_boundary; });
 }
-/// Whether other materials can be made of it.
+/// Returns whether other materials can be made of it.
 inline bool can_be_part(Material const& material) {
     return with_traits(material, []<class T>(auto const&) -> bool { return T::can_be_part; });
 }
@@ -262,11 +262,11 @@ inline bool can_be_part(Material const& material) {
 inline Input<float> opacity_of(Material const& material) {
     return with_traits(material, []<class T>(auto const& m) { return T::opacity(m); });
 }
-/// What a material by itself emits, if it may.
+/// Returns what a material by itself emits, if it may.
 inline std::optional<MaterialEmission> emission_of(Material const& material) {
     return with_traits(material, []<class T>(auto const& m) { return T::emission(m); });
 }
-/// Whether it looks at the direction in which u grows, its parts aside.
+/// Returns whether it looks at the direction in which u grows, its parts aside.
 inline bool needs_tangents(Material const& material) {
     return with_traits(material, []<class T>(auto const& m) { return T::needs_tangents(m); });
 }

@@ -12,7 +12,7 @@ std::vector<MaterialId> parts_of(Scene const& scene, MaterialId id);
 /// does so.
 std::optional<Input<float>> inner_ior(Scene const& scene, MaterialId id);
 
-/// Whether light goes through into the object's inside.
+/// Returns whether light goes through into the object's inside.
 bool is_transmissive(Scene const& scene, MaterialId id);
 
 /// Whether light may go straight through the material or parts of it. The opacity of the whole is

@@ -32,7 +32,7 @@ struct PartCount {
 template <class M>
 struct MaterialTraits;
 
-/// Whether an input may be something else than `value`.
+/// Returns whether an input may be something else than `value`.
 template <class T>
 bool may_differ(Input<T> const& in, T const& value) {
     return in.texture || in.value != value;
@@ -48,13 +48,13 @@ struct IsSurface {
 struct IsOpaque {
     /// The index of refraction behind the surface, if light is refracted there.
     static std::optional<Input<float>> inner_ior(auto const&) { return {}; }
-    /// Whether light may go through without a bend.
+    /// Returns whether light may go through without a bend.
     static bool passes_straight(auto const&) { return false; }
 };
 
 /// All of it is there, and it does not shine.
 struct IsWholeAndDark {
-    /// How much of the material is there, 0 to 1.
+    /// Returns how much of the material is there, 0 to 1.
     static Input<float> opacity(auto const&) { return {1}; }
     /// Nothing for a material that cannot emit.
     static std::optional<MaterialEmission> emission(auto const&) { return {}; }
@@ -62,7 +62,7 @@ struct IsWholeAndDark {
 
 /// It looks the same however its uvs are turned.
 struct IsIsotropic {
-    /// Whether lobes need to know the direction in which u grows.
+    /// Returns whether lobes need to know the direction in which u grows.
     static bool needs_tangents(auto const&) { return false; }
 };
 

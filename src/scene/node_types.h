@@ -14,7 +14,7 @@ constexpr ValueType literal_type(AnyValue const& v) {
     return v.count == 1 ? ValueType::number : v.count == 2 ? ValueType::vector2 : ValueType::triple;
 }
 
-/// Whether an input that takes `wanted` can be fed with `given`.
+/// Returns whether an input that takes `wanted` can be fed with `given`.
 constexpr bool accepts(ValueType wanted, ValueType given) {
     return wanted == ValueType::inputs || given == ValueType::number || given == wanted ||
            (wanted == ValueType::number && given == ValueType::color);
@@ -59,7 +59,7 @@ struct InputTypes {
 template <class F>
 InputTypes(F&) -> InputTypes<F>;
 
-/// What `node` gives.
+/// Returns the type of what `node` gives.
 template <class Node, class F>
 ValueType output_type(Node node, F const& type_of) {
     if constexpr (requires { node.output_type(); }) {

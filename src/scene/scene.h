@@ -92,7 +92,7 @@ struct Scene {
     std::vector<SharedText> material_names; ///< likewise
 };
 
-/// What an object is called: its id in a scene file, its name in a glTF file; "" where it has none.
+/// Returns an object's id in a scene file or its name in a glTF file; "" where it has none.
 template <class Kind>
 std::string_view name_of(Scene const& scene, schema::Id<Kind> id) {
     auto const name = [&](auto const& names) -> std::string_view {

@@ -101,7 +101,7 @@ struct RayVisibility {
     friend constexpr bool operator==(RayVisibility const&, RayVisibility const&) = default;
 };
 
-/// What is seen of a member of a group: what a group hides, its members do not show.
+/// Returns what is seen of a member of a group: what a group hides, its members do not show.
 constexpr RayVisibility inherit(RayVisibility const& outer, RayVisibility const& own) {
     // A name for each: a new one does not compile before there is something to say of it here.
     [[maybe_unused]] auto const& [camera, diffuse, glossy, transmission, volume, shadow] = own;

@@ -11,7 +11,7 @@ namespace weft::scene {
 struct Date {
     int year = 2000, month = 1, day = 1;
 };
-/// Of "2026-06-21"; nothing where it is no day of the Gregorian calendar.
+/// Reads "2026-06-21". Returns nothing where it is no day of the Gregorian calendar.
 std::optional<Date> parse_date(std::string_view text);
 
 struct SkyLight {

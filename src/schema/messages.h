@@ -34,7 +34,7 @@ inline std::string range_phrase(Attr const& attr) {
     return std::isfinite(attr.min) ? low + " and " + high : high;
 }
 
-/// What a parameter that is not given should have been: "'fov' (float)", or "an <instance>" where a
+/// Returns what a parameter not given should have been: "'fov' (float)", or "an <instance>" where a
 /// child tag of this category fills it.
 inline std::string missing_phrase(std::string_view name, std::string_view kind,
                                   std::string_view category) {

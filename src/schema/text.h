@@ -33,7 +33,7 @@ std::optional<std::vector<double>> read_numbers(std::string_view text);
 /// two commas.
 std::vector<std::string_view> split_words(std::string_view text);
 
-/// As read_numbers, for exactly one number or, if `count` > 1, `count` of them.
+/// Does what read_numbers does, for one number or, if `count` > 1, `count` of them.
 std::optional<std::vector<double>> read_components(std::string_view text, int count);
 
 /// kind: the type's name in documentation; expected: the phrase for error messages; write; and

@@ -86,7 +86,7 @@ struct SurfaceNormal { ///< unit, world space
     friend constexpr bool operator==(SurfaceNormal, SurfaceNormal) = default;
 };
 
-/// What an input of T takes from a node: for AnyValue whatever it is.
+/// Names what an input of T takes from a node: for AnyValue whatever it is.
 template <class T>
 inline constexpr ValueType input_type = ValueType::vector3;
 template <>

@@ -5,7 +5,7 @@
 
 namespace weft::world {
 
-/// What of an object's mask has to be set for a ray to meet it.
+/// Bits of an object's mask, one of which has to be set for a ray to meet it.
 using RayMask = uint32_t;
 
 /// What light from below a surface meets is what its diffuse light does.
