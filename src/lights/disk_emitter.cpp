@@ -1,6 +1,7 @@
 #include <numbers>
 #include <utility>
 
+#include "base/warp.h"
 #include "lights/area_sampling.h"
 #include "lights/emitter_geometry.h"
 

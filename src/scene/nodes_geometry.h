@@ -3,6 +3,7 @@
 #pragma once
 
 #include "scene/color_space.h"
+#include "scene/dialects.h"
 #include "scene/nodes_math.h"
 
 namespace weft::scene::nodes {
