@@ -14,6 +14,23 @@ namespace {
 /// A mesh of fewer triangles is copied wherever it stands: a level of instancing costs more.
 constexpr size_t kInstancingThreshold = 64;
 
+/// Returns the same number for the same traits. All of them count, since millions of instances may
+/// differ in any one.
+uint64_t hash_of(scene::InstanceTraits const& traits) {
+    auto const& [sets, group, bsdf, emission, normal, alpha, volume, medium, priority, visibility,
+                 holdout, shadow_catcher, trace_distance] = traits;
+    uint64_t hash = hash_combine(hash_bytes(sets.str()), hash_bytes(group.str()));
+    for (int32_t part : {bsdf.index, emission.index, normal.index,
+                         std::bit_cast<int32_t>(alpha.value), alpha.texture.index, volume.index,
+                         medium.index, priority, std::bit_cast<int32_t>(trace_distance)})
+        hash = hash_combine(hash, uint64_t(uint32_t(part)));
+    auto const& [camera, diffuse, glossy, transmission, in_volume, shadow] = visibility;
+    for (bool flag :
+         {camera, diffuse, glossy, transmission, in_volume, shadow, holdout, shadow_catcher})
+        hash = hash_combine(hash, flag);
+    return hash;
+}
+
 std::shared_ptr<scene::Mesh const> make_rectangle() {
     scene::Mesh mesh;
     mesh.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
@@ -192,13 +209,10 @@ WorldBuilder::GeometryKey WorldBuilder::key_of(Geometry const& geometry) {
 /// Objects that emit have a model each, since a light may change what they emit.
 uint32_t WorldBuilder::model_of(Placed const& placed, scene::InstanceTraits const& traits,
                                 int32_t instance) {
-    // Traits that are not hashed make the search longer, not wrong.
-    auto const [kind, mesh] = key_of(placed.geometry);
-    size_t hash = std::hash<void const*>()(mesh) + kind;
-    for (int32_t part : {traits.bsdf.index, traits.normal.index, traits.alpha.texture.index,
-                         traits.volume.index, traits.medium.index, int32_t(placed.instanced),
-                         traits.priority, std::bit_cast<int32_t>(traits.alpha.value)})
-        hash = hash_combine(hash, uint64_t(uint32_t(part)));
+    auto const [kind, made_of] = key_of(placed.geometry);
+    size_t const hash =
+        hash_combine(hash_combine(hash_of(traits), std::hash<void const*>()(made_of)),
+                     2 * kind + placed.instanced);
     auto const [first, last] = shared_models_.equal_range(hash);
     for (auto it = first; it != last; ++it) {
         Model const& m = world_.models_[it->second];

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <ctime>
+#include <string>
 
 #include "scene/scene_vectors.h"
 #include "world/world.h"
@@ -33,35 +34,66 @@ TEST(Commit, RefusesScenesThatAreNotValid) {
     EXPECT_THROW(World::commit(sphere_of(scene::Diffuse{.albedo = {Color(0), {7}}})), InputError);
 }
 
-/// So many meshes of 72 triangles, each there twice.
-std::shared_ptr<scene::Scene const> meshes_in_pairs(int count) {
-    auto s = std::make_shared<scene::Scene>();
-    s->cameras.emplace_back(scene::Perspective{});
-    s->contents.camera = {0};
-    scene::Mesh grid;
-    constexpr uint32_t side = 6;
-    for (uint32_t y = 0; y <= side; ++y)
-        for (uint32_t x = 0; x <= side; ++x) grid.positions.push_back({float(x), float(y), 0});
-    for (uint32_t y = 0; y < side; ++y)
-        for (uint32_t x = 0; x < side; ++x) {
-            uint32_t const a = y * (side + 1) + x, b = a + side + 1;
-            grid.triangles.push_back({{a, a + 1, b + 1}});
-            grid.triangles.push_back({{a, b + 1, b}});
-        }
-    for (int i = 0; i < count; ++i) {
-        s->meshes.push_back(std::make_shared<scene::Mesh const>(grid));
-        scene::MeshShape shape;
-        shape.filename.resource = i;
-        s->shapes.emplace_back(shape);
-        for (double z : {0.0, 1.0}) {
-            scene::Instance instance;
-            instance.shape = {i};
-            instance.transform.origin = {double(i), 0, z};
-            s->contents.instances.push_back({int32_t(s->instances.size())});
-            s->instances.push_back(instance);
-        }
+/// A scene with a camera, and a mesh of 72 triangles that nothing shows yet.
+struct Grid {
+    std::shared_ptr<scene::Scene> scene = std::make_shared<scene::Scene>();
+    std::shared_ptr<scene::Mesh const> mesh;
+
+    Grid() {
+        scene->cameras.emplace_back(scene::Perspective{});
+        scene->contents.camera = {0};
+        scene::Mesh grid;
+        constexpr uint32_t side = 6;
+        for (uint32_t y = 0; y <= side; ++y)
+            for (uint32_t x = 0; x <= side; ++x) grid.positions.push_back({float(x), float(y), 0});
+        for (uint32_t y = 0; y < side; ++y)
+            for (uint32_t x = 0; x < side; ++x) {
+                uint32_t const a = y * (side + 1) + x, b = a + side + 1;
+                grid.triangles.push_back({{a, a + 1, b + 1}});
+                grid.triangles.push_back({{a, b + 1, b}});
+            }
+        mesh = std::make_shared<scene::Mesh const>(std::move(grid));
     }
-    return s;
+    /// Adds a shape of a mesh of its own.
+    void add_shape() {
+        scene::MeshShape shape;
+        shape.filename.resource = int32_t(scene->meshes.size());
+        scene->meshes.push_back(mesh);
+        scene->shapes.emplace_back(shape);
+    }
+    /// Adds an instance of the last shape.
+    scene::InstanceTraits& add_instance(Vec3d const& where) {
+        scene::Instance instance;
+        instance.shape = {int32_t(scene->shapes.size()) - 1};
+        instance.transform.origin = where;
+        scene->contents.instances.push_back({int32_t(scene->instances.size())});
+        scene->instances.push_back(instance);
+        return scene->instances.back().traits;
+    }
+};
+
+/// So many meshes, each there twice.
+std::shared_ptr<scene::Scene const> meshes_in_pairs(int count) {
+    Grid grid;
+    for (int i = 0; i < count; ++i) {
+        grid.add_shape();
+        for (double z : {0.0, 1.0}) grid.add_instance({double(i), 0, z});
+    }
+    return grid.scene;
+}
+
+/// So many instances of one mesh that differ in what few instances have.
+std::shared_ptr<scene::Scene const> instances_that_differ(int count) {
+    Grid grid;
+    grid.add_shape();
+    for (int i = 0; i < count; ++i) {
+        scene::InstanceTraits& traits = grid.add_instance({double(i), 0, 0});
+        if (i % 2)
+            traits.group = std::to_string(i);
+        else
+            traits.trace_distance = float(i + 1);
+    }
+    return grid.scene;
 }
 
 /// Processor seconds of a commit, the least of three.
@@ -82,10 +114,17 @@ TEST(Commit, TakesTimeInProportionToInstancedMeshes) {
     EXPECT_LT(many, 24 * few);
 }
 
+TEST(Commit, TakesTimeInProportionToInstancesThatDiffer) {
+    double const few = seconds_to_commit(instances_that_differ(2000)),
+                 many = seconds_to_commit(instances_that_differ(16000));
+    EXPECT_LT(many, 24 * few);
+}
+
 TEST(Commit, KeepsLittlePerObject) {
     auto const pairs = World::commit(meshes_in_pairs(50));
     EXPECT_EQ(pairs->object_count(), 100u);
     EXPECT_EQ(pairs->models().size(), 50u); // what looks the same is one model
+    EXPECT_EQ(World::commit(instances_that_differ(50))->models().size(), 50u);
 }
 
 } // namespace
