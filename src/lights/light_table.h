@@ -49,8 +49,8 @@ class LightTable {
     /// Returns the density with which `sample` gives a point that a ray found on the light.
     float pdf(int32_t light, LitPoint const& at, shading::SurfacePoint const& point) const;
 
-    /// Radiance from unit direction `d` of all lights infinitely far away that rays can meet, each
-    /// with the density with which `sample` gives that direction: calls f(light, radiance, pdf).
+    /// Calls f(light, radiance, pdf) for each light in the background: its radiance from unit
+    /// direction `d`, and the density with which `sample` gives that direction.
     template <class F>
     void background(world::World const& world, LitPoint const& at, Vec3 const& d, F&& f) const {
         FeatureScope const scope(Feature::LightSampling);
@@ -75,9 +75,9 @@ class LightTable {
     /// Returns whether any lamp with a size is not hidden from the camera.
     bool camera_sees_lamps() const { return camera_sees_lamps_; }
 
-    /// Radiance of all lamps that the ray meets before its t_max, each with the density with which
-    /// `sample` at `at`, a point on the ray's line, gives its direction: calls f(light, p,
-    /// radiance, pdf) with the point where it is met.
+    /// Calls f(light, p, radiance, pdf) for each lamp that the ray meets before its t_max: the
+    /// point where it is met, its radiance, and the density with which `sample` at `at`, a point on
+    /// the ray's line, gives the ray's direction.
     template <class F>
     void lamps(world::World const& world, world::Ray const& ray, LitPoint const& at, F&& f) const {
         if (!lamps_) return;

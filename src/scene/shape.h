@@ -1,11 +1,13 @@
 // Shapes, and the instances that put them into the world.
 #pragma once
 
+#include <bit>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
+#include "base/hash.h"
 #include "base/shared_text.h"
 #include "scene/dialects.h"
 #include "scene/handles.h"
@@ -210,6 +212,23 @@ inline constexpr std::array kInstances{
              .today = "has no effect: nothing asks for the number of an object"},
 };
 } // namespace dialects
+
+/// Returns the same number for the same traits. All of them count, since millions of instances may
+/// differ in any one.
+inline uint64_t hash_of(InstanceTraits const& traits) {
+    auto const& [sets, group, bsdf, emission, normal, alpha, volume, medium, priority, visibility,
+                 holdout, shadow_catcher, trace_distance] = traits;
+    uint64_t hash = hash_combine(hash_bytes(sets.str()), hash_bytes(group.str()));
+    for (int32_t part : {bsdf.index, emission.index, normal.index,
+                         std::bit_cast<int32_t>(alpha.value), alpha.texture.index, volume.index,
+                         medium.index, priority, std::bit_cast<int32_t>(trace_distance)})
+        hash = hash_combine(hash, uint64_t(uint32_t(part)));
+    auto const& [camera, diffuse, glossy, transmission, in_volume, shadow] = visibility;
+    for (bool flag :
+         {camera, diffuse, glossy, transmission, in_volume, shadow, holdout, shadow_catcher})
+        hash = hash_combine(hash, flag);
+    return hash;
+}
 
 struct Instance {
     static constexpr schema::TypeInfo info{.category = "instance",

@@ -14,23 +14,6 @@ namespace {
 /// A mesh of fewer triangles is copied wherever it stands: a level of instancing costs more.
 constexpr size_t kInstancingThreshold = 64;
 
-/// Returns the same number for the same traits. All of them count, since millions of instances may
-/// differ in any one.
-uint64_t hash_of(scene::InstanceTraits const& traits) {
-    auto const& [sets, group, bsdf, emission, normal, alpha, volume, medium, priority, visibility,
-                 holdout, shadow_catcher, trace_distance] = traits;
-    uint64_t hash = hash_combine(hash_bytes(sets.str()), hash_bytes(group.str()));
-    for (int32_t part : {bsdf.index, emission.index, normal.index,
-                         std::bit_cast<int32_t>(alpha.value), alpha.texture.index, volume.index,
-                         medium.index, priority, std::bit_cast<int32_t>(trace_distance)})
-        hash = hash_combine(hash, uint64_t(uint32_t(part)));
-    auto const& [camera, diffuse, glossy, transmission, in_volume, shadow] = visibility;
-    for (bool flag :
-         {camera, diffuse, glossy, transmission, in_volume, shadow, holdout, shadow_catcher})
-        hash = hash_combine(hash, flag);
-    return hash;
-}
-
 std::shared_ptr<scene::Mesh const> make_rectangle() {
     scene::Mesh mesh;
     mesh.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
