@@ -131,6 +131,17 @@ void replace_file(std::string const& path,
     flush_folder(path);
 }
 
+void replace_file(std::string const& path, std::string_view contents) {
+    replace_file(path, [&](int descriptor, std::string const&) {
+        for (size_t at = 0; at < contents.size();) {
+            ssize_t const n = ::write(descriptor, contents.data() + at, contents.size() - at);
+            if (n < 0 && errno == EINTR) continue;
+            if (n <= 0) fail(path, "cannot write");
+            at += size_t(n);
+        }
+    });
+}
+
 void probe_folder(std::string const& path) { Temporary const temporary(path); }
 
 } // namespace weft::image

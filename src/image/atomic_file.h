@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 
 namespace weft::image {
 
@@ -17,6 +18,9 @@ namespace weft::image {
 /// is gone either way.
 void replace_file(std::string const& path,
                   std::function<void(int descriptor, std::string const& temporary)> const& fill);
+
+/// The same with `contents` in the new file.
+void replace_file(std::string const& path, std::string_view contents);
 
 /// Makes and removes a temporary file as `replace_file` would. Throws IoError with the reason
 /// where it cannot.

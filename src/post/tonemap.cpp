@@ -3,6 +3,7 @@
 // High Contrast Scenes", equation 4 for a display whose maximum is 1.
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "post/apply.h"
 #include "schema/text.h"
@@ -25,10 +26,9 @@ float drago(float l, float largest, float bias) {
     return std::log1p(l) / (std::log10(1 + largest) * std::log(2 + 8 * power) * l);
 }
 
-/// The luminance of each pixel; grey pictures have one channel.
-float luminance_at(image::Image const& image, size_t pixel, int colors) {
-    float const* p = &image.pixels[pixel * size_t(image.channels)];
-    return colors == 3 ? luminance(Color(p[0], p[1], p[2])) : p[0];
+/// Returns the luminance of a pixel's colours: three, or one of a grey picture.
+float luminance_of(std::span<float const> pixel) {
+    return pixel.size() == 3 ? luminance(Color(pixel[0], pixel[1], pixel[2])) : pixel[0];
 }
 
 } // namespace
@@ -36,16 +36,28 @@ float luminance_at(image::Image const& image, size_t pixel, int colors) {
 Applied apply(scene::Tonemap const& tonemap, Inputs const& inputs) {
     image::Image image = *inputs.find(tonemap.input);
     int const colors = image.channels >= 3 ? 3 : 1;
-    size_t const count = size_t(image.width) * size_t(image.height);
-    float largest = 0;
-    for (size_t i = 0; i < count; ++i)
-        if (float const l = luminance_at(image, i, colors); std::isfinite(l))
-            largest = std::max(largest, l);
-    for (size_t i = 0; i < count; ++i) {
-        float* p = &image.pixels[i * size_t(image.channels)];
-        float const scale = drago(luminance_at(image, i, colors), largest, tonemap.bias);
-        for (int c = 0; c < colors; ++c)
-            p[c] = tonemap.curve == scene::ToneOperator::reinhard ? reinhard(p[c]) : p[c] * scale;
+    auto const for_each_pixel = [&](auto const& f) {
+        for (size_t i = 0; i < image.pixels.size(); i += size_t(image.channels))
+            f(std::span(&image.pixels[i], size_t(colors)));
+    };
+    switch (tonemap.curve) {
+    case scene::ToneOperator::reinhard:
+        for_each_pixel([](std::span<float> pixel) {
+            for (float& c : pixel) c = reinhard(c);
+        });
+        break;
+    case scene::ToneOperator::drago: {
+        float largest = 0;
+        for_each_pixel([&](std::span<float> pixel) {
+            if (float const l = luminance_of(pixel); std::isfinite(l))
+                largest = std::max(largest, l);
+        });
+        for_each_pixel([&](std::span<float> pixel) {
+            float const scale = drago(luminance_of(pixel), largest, tonemap.bias);
+            for (float& c : pixel) c *= scale;
+        });
+        break;
+    }
     }
     return {std::move(image),
             "tonemap (" + std::string(schema::TextForm<scene::ToneOperator>::write(tonemap.curve)) +

@@ -1,12 +1,10 @@
 #include "session/render_state.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
 #include <fmt/format.h>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include "base/file_bytes.h"
 #include "base/hash.h"
@@ -155,15 +153,7 @@ RenderState read_state(std::string_view bytes, std::string const& name) {
 }
 
 void save_state(std::string const& path, RenderState const& state) {
-    std::string const bytes = write_state(state);
-    image::replace_file(path, [&](int descriptor, std::string const&) {
-        for (size_t at = 0; at < bytes.size();) {
-            ssize_t const n = ::write(descriptor, bytes.data() + at, bytes.size() - at);
-            if (n < 0 && errno == EINTR) continue;
-            if (n <= 0) throw image::IoError(path + ": cannot write: " + std::strerror(errno));
-            at += size_t(n);
-        }
-    });
+    image::replace_file(path, write_state(state));
 }
 
 RenderState load_state(std::string const& path) { return read_state(read_file(path).view(), path); }

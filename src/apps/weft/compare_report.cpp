@@ -1,12 +1,9 @@
 #include "apps/weft/compare_report.h"
 
 #include <Imath/half.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -115,16 +112,7 @@ void write_report(std::string const& path, Report const& report) {
     std::string text(page.substr(0, at));
     text += json_of(report);
     text += page.substr(at + mark.size());
-    image::replace_file(path, [&](int descriptor, std::string const&) {
-        for (size_t done = 0; done < text.size();) {
-            ssize_t const n = ::write(descriptor, text.data() + done, text.size() - done);
-            if (n < 0 && errno == EINTR) continue;
-            if (n < 0)
-                throw image::IoError("cannot write the page '" + path +
-                                     "': " + std::strerror(errno));
-            done += size_t(n);
-        }
-    });
+    image::replace_file(path, text);
 }
 
 } // namespace weft::apps

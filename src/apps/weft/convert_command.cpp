@@ -2,13 +2,11 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
-#include <unistd.h>
 
 #include "apps/weft/commands.h"
 #include "base/error.h"
 #include "base/file_bytes.h"
 #include "image/atomic_file.h"
-#include "image/write.h"
 #include "io/convert.h"
 #include "io/gltf.h"
 
@@ -20,16 +18,6 @@ struct ConvertArguments {
     std::string from, to;
 };
 
-void write_text(std::string const& path, std::string const& text) {
-    image::replace_file(path, [&](int descriptor, std::string const& temporary) {
-        for (size_t at = 0; at < text.size();) {
-            ssize_t const written = ::write(descriptor, text.data() + at, text.size() - at);
-            if (written <= 0) throw image::IoError("cannot write '" + temporary + "'");
-            at += size_t(written);
-        }
-    });
-}
-
 int run(ConvertArguments const& a) {
     if (io::is_gltf(a.from))
         throw InputError({a.from},
@@ -40,7 +28,7 @@ int run(ConvertArguments const& a) {
         converted = io::convert_scene(bytes.view(), a.from, a.to);
     }
     for (std::string const& note : converted.notes) fmt::print(stderr, "note: {}\n", note);
-    write_text(a.to, converted.text);
+    image::replace_file(a.to, converted.text);
     fmt::print("{}\n", a.to);
     return kDone;
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "image/texel.h"
 #include "integrator/pixel_renderer.h"
 #include "schema/text.h"
 
@@ -52,7 +53,7 @@ void read_picture_files(io::SceneFile const& file, scene::PostprocessJob const& 
         image::Image image = image::read_image(picture.file);
         // As lightwave reads them, and textures here.
         if (image.is_srgb_encoded && !picture.linear)
-            for (float& v : image.pixels) v = std::pow(std::max(v, 0.f), 2.2f);
+            for (float& v : image.pixels) v = image::decoded(image::Transfer::gamma22, v);
         image.is_srgb_encoded = false;
         pictures[id.index] = {std::move(image), {}};
     }
