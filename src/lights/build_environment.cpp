@@ -25,16 +25,16 @@ scene::ImageTexture const* plain_image(scene::Scene const& scene, scene::Input<C
 /// How bright `map` is, as far as sampling wants to know. An image alone is known texel by texel.
 /// Networks are looked up at four places per texel; as something may be between them, and larger
 /// images are taken as networks, everything else is sampled a little as well.
-Grid brightness_of(shading::Textures const& textures, scene::Scene const& scene,
-                   scene::Input<Color> const& map, Color const& tint) {
-    Vec2i size = map.texture ? textures.resolution(map.texture) : Vec2i(1, 1);
-    scene::ImageTexture const* image = plain_image(scene, map);
-    bool const exact = !map.texture || (image && size.x <= kMostColumns);
+/// `image`: as of `plain_image`.
+Grid brightness_of(NetworkMap const& map, scene::ImageTexture const* image) {
+    Vec2i size = resolution(map.program);
+    bool const constant = map.program.result.reg < 0;
+    bool const exact = constant || (image && size.x <= kMostColumns);
     int const step = (size.x + kMostColumns - 1) / kMostColumns;
     size = Vec2i((size.x + step - 1) / step, (size.y + step - 1) / step);
     bool const nearest = exact && image && image->filter == scene::TextureFilter::nearest;
 
-    Grid grid{nearest || !map.texture ? Grid::Filter::nearest : Grid::Filter::bilinear,
+    Grid grid{nearest || constant ? Grid::Filter::nearest : Grid::Filter::bilinear,
               uint32_t(size.x),
               uint32_t(size.y),
               {}};
@@ -46,14 +46,14 @@ Grid brightness_of(shading::Textures const& textures, scene::Scene const& scene,
             Vec2 const uv = grid.uv(x, y);
             float& value = grid.values[size_t(y) * grid.width + x];
             if (exact) {
-                value = luminance(textures.radiance(map, uv) * tint);
+                value = luminance(map.at(uv));
                 continue;
             }
             for (int k = 0; k < 4 * step * step; ++k) {
                 Vec2 at(float(k % (2 * step)) + 0.5f, float(k / (2 * step)) + 0.5f);
                 at = uv + half_cell * (at / float(step) - Vec2(1));
                 at.y = std::clamp(at.y, 0.f, 1.f);
-                value += luminance(textures.radiance(map, at) * tint) / float(4 * step * step);
+                value += luminance(map.at(at)) / float(4 * step * step);
             }
             sum += double(value);
         }
@@ -112,12 +112,17 @@ Vec3 sun_direction(scene::SkyLight const& light) {
 
 } // namespace
 
-void LightBuilder::prepare_environment(scene::EnvironmentLight const& light,
-                                       SourceLocation const& where) {
-    textures_.prepare(compiler_, light.texture.texture, where);
-    if (!within(textures_.needs(light.texture.texture), shading::Needs::uv))
+NetworkMap LightBuilder::make_map(scene::EnvironmentLight const& light,
+                                  SourceLocation const& where) {
+    NetworkMap map;
+    map.tint = scene::scale_of(light.color, light.unit);
+    Color const& constant = light.texture.value;
+    map.program.result.value = {constant.r, constant.g, constant.b};
+    if (light.texture.texture) map.program = map_compiler_.compile(light.texture.texture, where);
+    if (!within(map.program.needs, shading::Needs::uv))
         throw InputError(where, "'texture' of <light type=\"envmap\"> expects nodes that depend on "
                                 "uv alone, found one that depends on a surface");
+    return map;
 }
 
 bool LightBuilder::is_compensated(scene::LightControls const& controls) const {
@@ -131,9 +136,7 @@ void LightBuilder::add_environment(EnvironmentLight light, std::span<scene::Port
                                    scene::LightControls const& controls) {
     light.to_map = light.to_world.inverse();
     std::vector<PortalMap> maps;
-    auto const brightness_at = [&](Vec3 const& d) {
-        return luminance(light.radiance(textures_, d));
-    };
+    auto const brightness_at = [&](Vec3 const& d) { return luminance(light.radiance(d)); };
     float const even = kEvenPortalPart * light.sampler.total() / (4 * kPi);
     uint32_t const lookups = std::min(light.sampler.columns() / (2 * kPortalCells) + 1, 8u);
     for (scene::PortalId id : portals)
@@ -146,13 +149,11 @@ void LightBuilder::add_environment(EnvironmentLight light, std::span<scene::Port
 }
 
 void LightBuilder::add_light(scene::EnvironmentLight const& light, SourceLocation const& where) {
-    prepare_environment(light, where);
-    Color const tint = scene::scale_of(light.color, light.unit);
-    EnvironmentSampler sampler(brightness_of(textures_, scene_, light.texture, tint),
+    NetworkMap map = make_map(light, where);
+    EnvironmentSampler sampler(brightness_of(map, plain_image(scene_, light.texture)),
                                is_compensated(light.controls));
-    add_environment(
-        {light.texture, directions_of(light.transform), {}, std::move(sampler), {}, 0, tint},
-        light.portals, light.controls);
+    add_environment({std::move(map), directions_of(light.transform), {}, std::move(sampler), {}},
+                    light.portals, light.controls);
 }
 
 void LightBuilder::add_light(scene::SkyLight const& light, SourceLocation const&) {

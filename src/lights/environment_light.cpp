@@ -14,33 +14,33 @@ LightSample sample_from(Vec3 const& direction, Color const& radiance, float pdf)
 
 } // namespace
 
-Color EnvironmentLight::radiance(shading::Textures const& textures, Vec2 uv) const {
-    return match(map, Overloaded{
-                          [&](scene::Input<Color> const& input) {
-                              return textures.radiance(input, uv) * tint;
-                          },
-                          [&](SkyTable const& sky) { return sky.at(uv); },
-                      });
+Color NetworkMap::at(Vec2 uv) const {
+    shading::SurfacePoint point;
+    point.uv = uv;
+    Vec3 const v = evaluate(program, point);
+    return max(Color(v.x, v.y, v.z), 0) * tint;
 }
 
-Color EnvironmentLight::radiance(shading::Textures const& textures, Vec3 const& d) const {
-    return radiance(textures, direction_to_uv(to_map.vector(d)));
+Color EnvironmentLight::radiance(Vec2 uv) const {
+    return match(map, [&](auto const& m) { return m.at(uv); });
 }
 
-LightSample EnvironmentLight::sample_whole(shading::Textures const& textures, Vec2 u) const {
+Color EnvironmentLight::radiance(Vec3 const& d) const {
+    return radiance(direction_to_uv(to_map.vector(d)));
+}
+
+LightSample EnvironmentLight::sample_whole(Vec2 u) const {
     auto const s = sampler.sample(u);
     Vec3 const d = to_world.vector(s.direction);
     float const stretch = length(d);
-    return sample_from(d * (1 / stretch), radiance(textures, s.uv), s.pdf * cubed(stretch));
+    return sample_from(d * (1 / stretch), radiance(s.uv), s.pdf * cubed(stretch));
 }
 
-LightSample EnvironmentLight::sample(LightContext const& context, Vec3 const& ref, Vec2 u,
-                                     uint32_t) const {
-    shading::Textures const& textures = context.textures;
+LightSample EnvironmentLight::sample(LightContext const&, Vec3 const& ref, Vec2 u, uint32_t) const {
     double const light = portals.light_at(ref);
-    if (!(light > 0)) return sample_whole(textures, u);
+    if (!(light > 0)) return sample_whole(u);
     if (u.x < whole) {
-        LightSample s = sample_whole(textures, {u.x / whole, u.y});
+        LightSample s = sample_whole({u.x / whole, u.y});
         s.pdf = whole * s.pdf + (1 - whole) * portals.pdf(ref, light, s.wi);
         return s;
     }
@@ -51,15 +51,14 @@ LightSample EnvironmentLight::sample(LightContext const& context, Vec3 const& re
         float const shrink = 1 / length(m);
         pdf += whole * sampler.pdf(m * shrink) * cubed(shrink);
     }
-    return sample_from(s.direction, radiance(textures, s.direction), pdf);
+    return sample_from(s.direction, radiance(s.direction), pdf);
 }
 
-LightSeen EnvironmentLight::seen(LightContext const& context, Vec3 const& ref,
-                                 Vec3 const& d) const {
+LightSeen EnvironmentLight::seen(LightContext const&, Vec3 const& ref, Vec3 const& d) const {
     Vec3 const m = to_map.vector(d);
     float const shrink = 1 / length(m);
     Vec3 const local = m * shrink;
-    LightSeen s{radiance(context.textures, direction_to_uv(local)), 0};
+    LightSeen s{radiance(direction_to_uv(local)), 0};
     double const light = portals.light_at(ref);
     float const part = light > 0 ? whole : 1;
     if (part > 0) s.pdf = part * sampler.pdf(local) * cubed(shrink);

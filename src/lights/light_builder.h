@@ -18,7 +18,7 @@ class LightBuilder {
     /// what belongs to an area light of a given power is scaled to it.
     LightBuilder(world::World& world, bool compensate)
         : world_(world), scene_(world.scene()), compensate_(compensate), compiler_(scene_),
-          textures_(scene_.textures.size()) {}
+          map_compiler_(scene_, {.directions = true}), textures_(scene_.textures.size()) {}
     /// Throws InputError for what a scene's light cannot be (a varying colour, ...).
     LightTable build();
 
@@ -30,7 +30,7 @@ class LightBuilder {
     std::pair<std::optional<Gobo>, float> make_gobo(scene::SpotLight const& light,
                                                     SpotLight const& spot);
     void add_lamp(Lamp lamp, float power, scene::LightControls const& controls);
-    void prepare_environment(scene::EnvironmentLight const& light, SourceLocation const& where);
+    NetworkMap make_map(scene::EnvironmentLight const& light, SourceLocation const& where);
     void add_light(scene::PointLight const&, SourceLocation const&);
     void add_light(scene::DirectionalLight const&, SourceLocation const&);
     void add_light(scene::SpotLight const&, SourceLocation const&);
@@ -53,7 +53,8 @@ class LightBuilder {
     scene::Scene const& scene_;
     bool compensate_;
     shading::GraphCompiler compiler_;
-    shading::Textures textures_; ///< of environments and gobos
+    shading::GraphCompiler map_compiler_; ///< of environments
+    shading::Textures textures_;          ///< of gobos
     LightList list_;
 };
 

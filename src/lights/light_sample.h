@@ -38,7 +38,7 @@ enum class FoundAs : uint8_t {
 /// What lights look things up in.
 struct LightContext {
     world::World const& world;         ///< has the objects that are lights
-    shading::Textures const& textures; ///< of environments and gobos
+    shading::Textures const& textures; ///< of gobos
 };
 
 /// A point to be lit, as far as the choice of lights goes.

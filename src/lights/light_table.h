@@ -19,7 +19,7 @@ namespace weft::lights {
 class LightTable {
   public:
     LightTable() = default;
-    /// `textures`: of environments and gobos; `world`: of the objects that are lights. Throws
+    /// `textures`: of gobos; `world`: of the objects that are lights. Throws
     /// std::runtime_error where memory is short.
     LightTable(LightList list, shading::Textures textures, world::World const& world);
 
@@ -118,7 +118,7 @@ class LightTable {
     bool camera_sees_lamps_ = false;
     bool has_controls_ = false, has_controls_by_kind_ = false;
     LightTree tree_;
-    shading::Textures textures_; ///< of environments and gobos
+    shading::Textures textures_; ///< of gobos
 };
 
 } // namespace weft::lights

@@ -53,8 +53,8 @@ struct EnvironmentLight {
     static constexpr schema::TypeInfo info{
         .category = "light",
         .type = "envmap",
-        .help = "Light from all around: u = 0.5 - atan2(z, x) / (2 pi), v from the angle to the "
-                "local y axis.",
+        .help = "Light from all around: u = 0.5 - atan2(z, x) / (2 pi), v is 0 at the local +y and "
+                "1 at -y, so the top row of an image is at -y.",
         .example = "<light type=\"envmap\"><texture type=\"image\" filename=\"sky.hdr\"/></light>",
         .spellings = dialects::kEnvmaps};
     Input<Color> texture{Color(1)};
@@ -66,7 +66,11 @@ struct EnvironmentLight {
 
     template <class F>
     constexpr void describe(F&& f) {
-        f("texture", texture, {.unit = "W/(m^2 sr)", .min = 0, .help = "Radiance by direction."});
+        f("texture", texture,
+          {.unit = "W/(m^2 sr)",
+           .min = 0,
+           .help = "Radiance by direction. An image is interpolated between the centres of its "
+                   "texels, goes on around the seam and ends at the poles, whatever its border."});
         f("transform", transform,
           {.help =
                "From the map's space to the world: turns and mirrors the map; unequal scales and "

@@ -175,6 +175,10 @@ class Values {
     std::array<Vec3, kMaxRegisters> registers_; // not initialised: every one is written first
 };
 
+/// Returns (width, height) of the largest image that a program looks up. Patterns count as at least
+/// 512 x 256, which resolves most of them; a constant is (1, 1).
+Vec2i resolution(Program const& program);
+
 /// Runs the program at `point`.
 void evaluate(Program const& program, SurfacePoint const& point, Values& values);
 

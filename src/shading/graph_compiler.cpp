@@ -159,10 +159,12 @@ Operand GraphCompiler::translate(scene::ImageTexture const& node, scene::ValueTy
     bool const connected = bool(texcoord.texture);
     Needs const needs = connected ? Needs::nothing : Needs::uv;
     bool const udim = node.filename.path.find(scene::kUdim) != std::string::npos;
+    bool const around = options_.directions && !connected;
     auto lookup = [&](int32_t image) {
         // Tiles end at their borders: beside them is another.
-        return ImageLookup{scene_.images[size_t(image)], node.exposure,
-                           udim || node.border == scene::TextureBorder::clamp, node.filter};
+        bool const clamp = udim || node.border == scene::TextureBorder::clamp;
+        return ImageLookup{scene_.images[size_t(image)], node.exposure, clamp && !around,
+                           clamp || around, node.filter};
     };
     if (!udim)
         return finish(ImageOp{texcoord, lookup(node.filename.resource)}, needs, connected, type);

@@ -18,6 +18,9 @@ namespace weft::shading {
 
 struct CompileOptions {
     bool fold = true; ///< off, for tests: literals take registers, too
+    /// The uv of points are directions (base/lat_long.h). Images that are looked up there continue
+    /// around the seam and end at the poles, whatever their border.
+    bool directions = false;
 };
 
 class GraphCompiler {

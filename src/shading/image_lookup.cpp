@@ -61,8 +61,8 @@ struct Reader {
 
     auto bilinear(int level, Vec2 uv) const {
         image::MipLevel const& size = im.level(level);
-        Pair const x = texels_around(uv.x * float(size.width), size.width, lookup.clamp),
-                   y = texels_around((1 - uv.y) * float(size.height), size.height, lookup.clamp);
+        Pair const x = texels_around(uv.x * float(size.width), size.width, lookup.clamp_u),
+                   y = texels_around((1 - uv.y) * float(size.height), size.height, lookup.clamp_v);
         auto mixed = [&](auto p00, auto p10, auto p01, auto p11) {
             return mix(mix(load(p00), load(p10), x.t), mix(load(p01), load(p11), x.t), y.t);
         };
@@ -91,11 +91,11 @@ struct Reader {
 
 Color nearest(ImageLookup const& l, Vec2 uv) {
     image::Texture const& im = *l.image;
-    auto index = [&](float x, int size) {
-        return border_index(int(std::floor(bounded(x))), size, l.clamp);
+    auto index = [](float x, int size, bool clamp) {
+        return border_index(int(std::floor(bounded(x))), size, clamp);
     };
-    return to_color(im.texel(0, index(uv.x * float(im.width), im.width),
-                             index((1 - uv.y) * float(im.height), im.height)));
+    return to_color(im.texel(0, index(uv.x * float(im.width), im.width, l.clamp_u),
+                             index((1 - uv.y) * float(im.height), im.height, l.clamp_v)));
 }
 
 template <bool tiled>

@@ -21,7 +21,7 @@ namespace weft::shading {
 struct ImageLookup {
     std::shared_ptr<image::Texture const> image;
     float exposure = 1;
-    bool clamp = false;
+    bool clamp_u = false, clamp_v = false; ///< else the image repeats along that axis
     scene::TextureFilter filter = scene::TextureFilter::bilinear;
 
     /// `footprint` matters to `mipmap` alone.

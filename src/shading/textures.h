@@ -73,9 +73,8 @@ class Textures {
         return std::clamp(at(o.instance, place), 0.f, 1.f) *
                std::clamp(at(o.material, place), 0.f, 1.f);
     }
-    /// Returns (width, height) of the largest image in a prepared network. Patterns count as at
-    /// least 512 x 256, which resolves most of them; a constant is (1, 1).
-    Vec2i resolution(scene::TextureId id) const;
+    /// Returns the resolution of a prepared network (see graph.h).
+    Vec2i resolution(scene::TextureId id) const { return shading::resolution(root(id).program); }
 
   private:
     struct Root {

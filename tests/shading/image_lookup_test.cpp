@@ -38,13 +38,16 @@ TEST(ImageLookup, BordersRepeatOrClamp) {
             Vec2 const uv((float(x) + 0.5f) / 7, 1 - (float(y) + 0.5f) / 5);
             for (scene::TextureFilter filter :
                  {scene::TextureFilter::nearest, scene::TextureFilter::bilinear}) {
-                Color const repeated = ImageLookup{im, 1, false, filter}.at(uv),
+                Color const repeated = ImageLookup{im, 1, false, false, filter}.at(uv),
                             expected = texel(*im, 0, modulo(x, 7), modulo(y, 5));
-                Color const clamped = ImageLookup{im, 1, true, filter}.at(uv),
+                Color const clamped = ImageLookup{im, 1, true, true, filter}.at(uv),
                             edge = texel(*im, 0, std::clamp(x, 0, 6), std::clamp(y, 0, 4));
+                Color const around = ImageLookup{im, 1, false, true, filter}.at(uv),
+                            ring = texel(*im, 0, modulo(x, 7), std::clamp(y, 0, 4));
                 for (int c = 0; c < 3; ++c) {
                     EXPECT_NEAR(repeated[c], expected[c], 1e-5f);
                     EXPECT_NEAR(clamped[c], edge[c], 1e-5f);
+                    EXPECT_NEAR(around[c], ring[c], 1e-5f);
                 }
             }
         }
@@ -58,7 +61,7 @@ TEST(ImageLookup, AnyCoordinateIsSafe) {
              {scene::TextureFilter::nearest, scene::TextureFilter::bilinear,
               scene::TextureFilter::mipmap})
             for (bool clamp : {false, true})
-                ImageLookup{im, 1, clamp, filter}.at({u, u}, {{u, u}, {u, u}});
+                ImageLookup{im, 1, clamp, clamp, filter}.at({u, u}, {{u, u}, {u, u}});
 }
 
 TEST(ImageLookup, FootprintsMatterToMipmapAlone) {
@@ -67,20 +70,20 @@ TEST(ImageLookup, FootprintsMatterToMipmapAlone) {
     Vec2 const uv(0.3f, 0.7f);
     for (scene::TextureFilter filter :
          {scene::TextureFilter::nearest, scene::TextureFilter::bilinear}) {
-        ImageLookup const l{im, 1, false, filter};
+        ImageLookup const l{im, 1, false, false, filter};
         EXPECT_EQ(l.at(uv), l.at(uv, wide));
     }
-    ImageLookup const l{im, 1, false, scene::TextureFilter::mipmap};
+    ImageLookup const l{im, 1, false, false, scene::TextureFilter::mipmap};
     EXPECT_NE(l.at(uv), l.at(uv, wide));
     // Below the size of a texel it is the image itself, bit by bit.
-    ImageLookup const sharp{im, 1, false, scene::TextureFilter::bilinear};
+    ImageLookup const sharp{im, 1, false, false, scene::TextureFilter::bilinear};
     EXPECT_EQ(l.at(uv, {{1 / 64.f, 0}, {0, 1 / 64.f}}), sharp.at(uv));
     EXPECT_EQ(l.at(uv), sharp.at(uv));
 }
 
 TEST(ImageLookup, LevelsFollowTheFootprint) {
     auto const im = noise(256, 64);
-    ImageLookup const l{im, 1, false, scene::TextureFilter::mipmap};
+    ImageLookup const l{im, 1, false, false, scene::TextureFilter::mipmap};
     auto isotropic = [](float texels) { return UvFootprint{{texels / 256, 0}, {0, texels / 64}}; };
     for (int k = 0; k < 6; ++k) EXPECT_FLOAT_EQ(l.level_of(isotropic(float(1 << k))), float(k));
     EXPECT_NEAR(l.level_of(isotropic(6)), 2.585f, 0.05f);
@@ -95,7 +98,7 @@ TEST(ImageLookup, LevelsFollowTheFootprint) {
 
 TEST(ImageLookup, GoesFromLevelToLevelWithoutAStep) {
     auto const im = noise(128, 128);
-    ImageLookup const l{im, 1, false, scene::TextureFilter::mipmap};
+    ImageLookup const l{im, 1, false, false, scene::TextureFilter::mipmap};
     Vec2 const uv(0.41f, 0.13f);
     auto at = [&](float texels) { return l.at(uv, {{texels / 128, 0}, {0, texels / 128}}).r; };
     for (float w = 1; w < 200; w *= 1.001f) EXPECT_NEAR(at(w), at(w * 1.001f), 2e-3f) << w;
