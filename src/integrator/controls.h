@@ -17,7 +17,8 @@ inline world::RayMask ray_mask(PathSettings const& settings, RayKind kind) {
 inline shading::Look look_after(PathSettings const& settings, bool diffused) {
     return {.secondary = !settings.full_materials,
             .least_roughness = settings.secondary_roughness,
-            .diffuse_only = diffused && !settings.secondary_specular};
+            .diffuse_only = diffused && !settings.secondary_specular,
+            .fold = settings.fold_normals};
 }
 
 /// Returns how many lights to sample at once where the path, as it got there, scatters next.

@@ -12,6 +12,7 @@ namespace weft::integrator {
 PathState::PathState(PathSettings const& settings, world::Ray const& camera_ray,
                      media::MediumStack const& inside)
     : ray(camera_ray), media(inside) {
+    look.fold = settings.fold_normals;
     ray.mask = ray_mask(settings, last.kind);
     last.at.p = ray.origin;
 }

@@ -17,6 +17,7 @@ uint32_t depth_limit(int depth) { return depth < 0 ? kUnlimited : uint32_t(depth
 PathSettings without_controls(PathSettings const& s) {
     PathSettings whole{s.strategy, s.depth, s.roulette_depth, s.footprint_scale, true};
     whole.light_samples = s.light_samples;
+    whole.fold_normals = s.fold_normals;
     whole.controls = false;
     return whole;
 }
@@ -25,6 +26,7 @@ PathSettings settings_of(scene::PathIntegrator const& i) {
     PathSettings s{i.strategy, depth_limit(i.depth), uint32_t(i.roulette_depth), 1,
                    i.full_materials};
     s.light_samples = uint32_t(i.light_samples);
+    s.fold_normals = i.normals == scene::BentNormals::fold;
     if (!i.controls) return without_controls(s);
     s.caustics = i.caustics;
     s.secondary_specular = i.secondary_specular;

@@ -16,6 +16,7 @@ struct PathSettings {
     bool full_materials = false; ///< no material has a simpler stand-in
     bool controls = true;        ///< lights and objects heed theirs
     bool by_part = false;        ///< some light's controls differ by the kind of scattering
+    bool fold_normals = false;   ///< see lobes::BentNormals
     uint32_t light_samples = 1;  ///< most lights sampled at a path's first smooth scattering
     bool caustics = true, secondary_specular = true;
     float secondary_roughness = 0;

@@ -58,8 +58,13 @@ struct SurfaceVertex {
 
     lobes::Bsdf const& bsdf() const { return shading.bsdf; }
     /// Returns whether light that comes from `wi` passes through the surface on its way to `wo`.
-    bool is_through(Vec3 const& wo, Vec3 const& wi) const {
-        return dot(wi, point.ng) * dot(wo, point.ng) < 0;
+    bool is_through(Vec3 const& wi) const { return !bsdf().reflects(wi); }
+    /// Returns where a ray towards `wi` starts.
+    Vec3 origin(Vec3 const& wi) const {
+        bool const through = is_through(wi);
+        if (!through && bsdf().bent_normals() == lobes::BentNormals::Softened)
+            return shading::lifted_origin(point, wi);
+        return shading::offset_origin(point, (dot(point.ng, point.wo) > 0) != through);
     }
     /// Returns whether the path passes by the sample `s` as if there were no surface.
     bool passes(lobes::BsdfSample const& s) const {
@@ -123,12 +128,12 @@ class Vertex {
     /// Returns where a ray towards `wi` starts.
     Vec3 origin(Vec3 const& wi) const {
         SurfaceVertex const* const s = surface();
-        return s ? shading::offset_origin(s->point, wi) : at.p;
+        return s ? s->origin(wi) : at.p;
     }
     /// Returns whether light from `wi` comes from the other side of a surface.
     bool is_through(Vec3 const& wi) const {
         SurfaceVertex const* const s = surface();
-        return s && s->is_through(wo, wi);
+        return s && s->is_through(wi);
     }
     /// Returns whether `eval` may be other than 0.
     bool is_smooth() const { return !surface() || surface()->bsdf().has_smooth(); }

@@ -35,6 +35,16 @@ bool same_sides(LobeFrame const& frame, Vec3 const& wi, Vec3 const& local) {
     return dot(wi, frame.ng) * local.z > 0;
 }
 
+/// The part of diffuse light that a surface with a bent normal scatters (Chiang, Li and Burley
+/// 2019, eq. 2 and 3), by the cosines between wi and the surface's normal, wi and the bent one, and
+/// both normals. It is 1 where the bent normal makes the surface darker, and 0 where wi grazes it.
+float terminator(float surface_i, float bent_i, float surface_bent) {
+    float const g = surface_i / (bent_i * surface_bent);
+    // Normals that are one but for rounding leave all bits as they are.
+    if (!(g < 0.9999f)) return 1;
+    return g > 0 ? g * (1 + g * (1 - g)) : 0;
+}
+
 } // namespace
 
 // Materials are refused when they are compiled if they may have too many lobes. So this is a
@@ -44,7 +54,8 @@ void Bsdf::no_room() {
     std::abort();
 }
 
-inline LobeValue Bsdf::eval_local(Span const& span, Vec3 const& wo, Vec3 const& wi) const {
+inline LobeValue Bsdf::eval_local(Span const& span, Vec3 const& wo, Vec3 const& wi,
+                                  float fade) const {
     Sides const side = wi.z > 0 ? Sides::Reflection : Sides::Transmission;
     if (!any(smooth_sides_, side)) return {};
     LobeValue sum;
@@ -54,18 +65,24 @@ inline LobeValue Bsdf::eval_local(Span const& span, Vec3 const& wo, Vec3 const& 
             if constexpr (SmoothLobe<std::remove_cvref_t<decltype(l)>>) return l.eval(wo, wi);
             return LobeValue{};
         });
-        sum.f += lobe.weight * v.f;
+        bool const fades = fade != 1 && is_diffuse(flags_of(lobe).kind);
+        sum.f += lobe.weight * (fades ? fade * v.f : v.f);
         sum.pdf += lobe.pick * v.pdf;
     }
     return sum;
 }
 
-inline LobeValue Bsdf::eval_folded(Span const& span, Vec3 const& wo, Vec3 const& wi) const {
-    auto const& [shading, ng] = span.frame;
+inline LobeValue Bsdf::eval_span(Span const& span, Vec3 const& wo, Vec3 const& wi) const {
+    auto const& [shading, ng, bent] = span.frame;
     Vec3 const wo_local = shading.to_local(wo), wi_local = shading.to_local(wi);
     float const height = dot(wi, ng);
     LobeValue value;
-    if (height * wi_local.z > 0) value = eval_local(span, wo_local, wi_local);
+    if (height * wi_local.z > 0) {
+        float const fade =
+            bent == BentNormals::Softened ? terminator(height, wi_local.z, dot(shading.n, ng)) : 1;
+        value = eval_local(span, wo_local, wi_local, fade);
+    }
+    if (bent != BentNormals::Folded) return value;
     // Where the normals are one this is -wi_local.z, and nothing is folded.
     float const folded_z = wi_local.z - 2 * height * dot(shading.n, ng);
     if (folded_z * height > 0) [[unlikely]] {
@@ -77,14 +94,14 @@ inline LobeValue Bsdf::eval_folded(Span const& span, Vec3 const& wo, Vec3 const&
 }
 
 LobeValue Bsdf::eval_one(int i, Vec3 const& wo, Vec3 const& wi) const {
-    return eval_folded({i, i + 1, frames_[lobes_[i].frame]}, wo, wi);
+    return eval_span({i, i + 1, frames_[lobes_[i].frame]}, wo, wi);
 }
 
 LobeValue Bsdf::eval(Vec3 const& wo, Vec3 const& wi) const {
     LobeValue sum;
     for (int first = 0; first < count_;) {
         Span const span = lobes_from(first);
-        LobeValue const v = eval_folded(span, wo, wi);
+        LobeValue const v = eval_span(span, wo, wi);
         sum.f += v.f;
         sum.pdf += v.pdf;
         first = span.end;
@@ -163,9 +180,10 @@ BsdfSample Bsdf::sample(Vec3 const& wo, Vec3 const& u, bool by_part) const {
     Picked const p =
         match(lobe.kind, [&](auto const& l) { return sample_lobe(l, wo_local, u_lobe); });
     Vec3 wi = frame.shading.to_world(p.wi);
-    if (!same_sides(frame, wi, p.wi)) {
+    if (!same_sides(frame, wi, p.wi)) { // or the lobe failed: the zero vector is on no side
+        if (frame.bent != BentNormals::Folded) return {};
         wi = fold(wi, frame.ng);
-        if (!same_sides(frame, wi, p.wi)) return {}; // a failure: the zero vector is on no side
+        if (!same_sides(frame, wi, p.wi)) return {};
     }
 
     BsdfSample result{wi, {}, 0, {p.kind, !(p.wi.z > 0)}, p.eta_scale, lobe.layer};

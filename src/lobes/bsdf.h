@@ -10,12 +10,8 @@
 // add, so `sample` returns the one it picked alone.
 //
 // Shading normals do not let light leak through the surface. Light that is reflected stays on wo's
-// side of the geometric surface, and light that is transmitted leaves it (Veach 1997, 5.3, lets the
-// shading normal decide). A direction on the wrong side is *folded*: mirrored at the geometric
-// tangent plane, as if the surface had scattered it once more. The value for wi is then f(wi) +
-// f(fold wi), each counted where its own side is right. Mirroring keeps solid angles, so that no
-// lobe loses power: a bent white mirror is white, and facets at the terminator are not black. The
-// price is reciprocity, which shading normals break anyway.
+// side of the surface, and light that is transmitted leaves it (Veach 1997, 5.3, lets the shading
+// normal decide). `BentNormals` says what becomes of light that a bent normal sends elsewhere.
 #pragma once
 
 #include <cassert>
@@ -66,11 +62,26 @@ inline float width_of(Lobe const& lobe) {
     return match(lobe.kind, [](auto const& l) { return l.width(); });
 }
 
+/// What becomes of light that a bent normal sends to the wrong side of the surface.
+enum class BentNormals : uint8_t {
+    /// It is lost, as in most renderers.
+    Dropped,
+    /// It is lost, and what is near to that fades out where the surface scatters diffusely: Chiang,
+    /// Li and Burley 2019, "Taming the shadow terminator".
+    Softened,
+    /// It is *folded*: mirrored at the surface's tangent plane, as if the surface had scattered it
+    /// once more. The value for wi is then f(wi) + f(fold wi), each counted where its own side is
+    /// right. Mirroring keeps solid angles, so that no lobe loses power: a bent white mirror is
+    /// white. The price is reciprocity, which shading normals break anyway.
+    Folded
+};
+
 /// What a lobe lies around.
 struct LobeFrame {
     Frame shading; ///< n is on wo's side
-    Vec3 ng{0, 0,
-            1}; ///< unit, on wo's side: geometric normal that tells reflection from transmission
+    /// Unit, on wo's side: the surface's normal, which tells reflection from transmission.
+    Vec3 ng{0, 0, 1};
+    BentNormals bent = BentNormals::Dropped;
 
     friend bool operator==(LobeFrame const&, LobeFrame const&) = default;
 };
@@ -92,9 +103,7 @@ class Bsdf {
 
     /// An empty list around one frame, n of which is on wo's side. The room for lobes stays
     /// uninitialised: what is not used costs no time.
-    Bsdf(Frame const& shading_frame, Vec3 const& ng_facing_wo) {
-        frames_[0] = {shading_frame, ng_facing_wo};
-    }
+    explicit Bsdf(LobeFrame const& frame) { frames_[0] = frame; }
     Bsdf(Bsdf const& o) { copy(o); }
     Bsdf& operator=(Bsdf const& o) {
         if (this != &o) copy(o);
@@ -103,12 +112,13 @@ class Bsdf {
 
     /// Returns the frame that the list was made with: that of the surface itself.
     Frame const& frame() const { return frames_[0].shading; }
+    BentNormals bent_normals() const { return frames_[0].bent; }
     /// Returns the frame of a lobe of this list.
     Frame const& frame(Lobe const& lobe) const { return frames_[lobe.frame].shading; }
 
     /// Lobes added from here on lie around `shading`, whose n is on wo's side, of the surface
     /// itself. Frames that no lobe lies around take no room.
-    void use_frame(Frame const& shading) { use_frame({shading, frames_[0].ng}); }
+    void use_frame(Frame const& shading) { use_frame({shading, frames_[0].ng, frames_[0].bent}); }
     /// The same for lobes of something else than the surface: a fibre has a geometric normal of its
     /// own.
     void use_frame(LobeFrame const& frame) {
@@ -147,7 +157,7 @@ class Bsdf {
     void for_each_value(Vec3 const& wo, Vec3 const& wi, F&& f) const {
         for (int i = 0; i < count_; ++i) f(lobes_[i], eval_one(i, wo, wi).f);
     }
-    /// Returns whether wi is on wo's side of the geometric surface.
+    /// Returns whether wi is on wo's side of the surface.
     bool reflects(Vec3 const& wi) const { return dot(wi, frames_[0].ng) > 0; }
 
     /// Returns what `eval` would if the list had only the lobes of one part (see kParts): that of
@@ -211,10 +221,11 @@ class Bsdf {
         if (!is_delta(flags.kind)) smooth_sides_ |= flags.sides;
     }
 
-    /// Returns what the lobes of one frame send towards `wi`, with what they send to its fold.
-    LobeValue eval_folded(Span const& span, Vec3 const& wo, Vec3 const& wi) const;
+    /// Returns what the lobes of one frame send towards `wi`, as its `bent` has it.
+    LobeValue eval_span(Span const& span, Vec3 const& wo, Vec3 const& wi) const;
     LobeValue eval_one(int i, Vec3 const& wo, Vec3 const& wi) const;
-    LobeValue eval_local(Span const& span, Vec3 const& wo, Vec3 const& wi) const;
+    /// Returns what they say in their own space; diffuse ones count by the part `fade`.
+    LobeValue eval_local(Span const& span, Vec3 const& wo, Vec3 const& wi, float fade = 1) const;
 
     void copy(Bsdf const& o) {
         std::copy_n(o.frames_, std::max(o.frame_count_, o.current_frame_ + 1), frames_);

@@ -8,9 +8,8 @@
 // glass of any roughness keeps all light. Tints act once. E is rounded up by what tables and sums
 // may lack, so that no light is gained.
 //
-// Plain isotropic boundaries look E up in tables. Stretched ones and those with options have too
-// many parameters for that: they add it up over a fixed set of normals, which takes some 20
-// microseconds for each wo.
+// Plain isotropic boundaries look E up in tables, stretched ones and those with options in the
+// lattice of boundary_albedo.h.
 //
 // A refracted lobe is about alpha |eta - 1| wide and its half vector about |eta - 1| long. Floats
 // resolve directions to about 1e-7, so that `eta` is kept max(1e-3, 1e-5 / alpha) away from 1
@@ -18,6 +17,7 @@
 #pragma once
 
 #include "lobes/albedo.h"
+#include "lobes/boundary_albedo.h"
 #include "lobes/dielectric_boundary.h"
 #include "lobes/lobe.h"
 #include "lobes/microfacet.h"
@@ -142,31 +142,9 @@ class MicrofacetDielectric {
     }
     /// The fractions that leave after one scattering, untinted.
     BoundarySplit single_scattering(Vec3 const& wo) const {
-        if (!is_tabulated()) return sum_over_normals(wo);
+        if (!is_tabulated()) return boundary_albedo(distribution_, eta_, options_, wo);
         DielectricAlbedo const once = dielectric_albedo(distribution_, wo, eta_);
         return {Color(once.reflected), Color(once.transmitted)};
-    }
-    BoundarySplit sum_over_normals(Vec3 const& wo) const {
-        Distribution const& d = distribution_;
-        float const sigma_o = d.projected_area(wo);
-        BoundarySplit sum;
-        for_visible_normals(d, wo, sigma_o, 377, [&](Vec3 const& m, float share) {
-            float const cos_o = dot(wo, m);
-            if (!(cos_o > 0)) return;
-            float cos_t;
-            float const fresnel = fresnel_dielectric(cos_o, eta_, cos_t);
-            BoundarySplit const split = split_light(options_, eta_, fresnel, cos_o, cos_t);
-            if (Vec3 const r = reflect(wo, m); r.z > 0)
-                sum.reflected +=
-                    split.reflected *
-                    (share * shadowing_above(d.shadowing, wo.z, sigma_o, r.z, d.projected_area(r)));
-            if (!(fresnel < 1)) return;
-            if (Vec3 const t = refract(wo, m, cos_o, cos_t, eta_); t.z < 0)
-                sum.transmitted +=
-                    split.transmitted * (share * shadowing_across(d.shadowing, wo.z, sigma_o, -t.z,
-                                                                  d.projected_area(t)));
-        });
-        return sum;
     }
     /// 1 / E, E being rounded up.
     Color compensation(BoundarySplit const& once) const {

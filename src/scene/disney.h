@@ -177,7 +177,7 @@ struct Disney {
 };
 
 template <>
-struct MaterialTraits<Disney> : IsSurface, HasNoParts {
+struct MaterialTraits<Disney> : IsSurface, SoftensBentLight, HasNoParts {
     static std::optional<Input<float>> inner_ior(Disney const& m) {
         return may_differ(m.transmission, 0.f) ? std::optional(m.ior) : std::nullopt;
     }

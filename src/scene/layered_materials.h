@@ -68,7 +68,8 @@ struct Layered {
     }
 };
 template <>
-struct MaterialTraits<Layered> : IsSurface, IsOpaque, IsWholeAndDark, IsIsotropic {
+struct MaterialTraits<Layered>
+    : IsSurface, SoftensBentLight, IsOpaque, IsWholeAndDark, IsIsotropic {
     static constexpr PartCount part_count{1, INT_MAX};
     static std::vector<MaterialId> parts(Layered const& m, std::vector<Layer> const& layers) {
         std::vector<MaterialId> all;
@@ -132,7 +133,7 @@ struct Coat {
     }
 };
 template <>
-struct MaterialTraits<Coat> : IsSurface, IsOpaque, IsWholeAndDark, IsIsotropic {
+struct MaterialTraits<Coat> : IsSurface, SoftensBentLight, IsOpaque, IsWholeAndDark, IsIsotropic {
     static constexpr PartCount part_count{1, 1};
     static std::vector<MaterialId> parts(Coat const& m, std::vector<Layer> const&) {
         return {m.bsdf};
@@ -167,7 +168,7 @@ struct Mix {
     }
 };
 template <>
-struct MaterialTraits<Mix> : IsSurface, IsOpaque, IsWholeAndDark, IsIsotropic {
+struct MaterialTraits<Mix> : IsSurface, SoftensBentLight, IsOpaque, IsWholeAndDark, IsIsotropic {
     static constexpr PartCount part_count{2, 2};
     static std::vector<MaterialId> parts(Mix const& m, std::vector<Layer> const&) {
         return m.bsdfs;
@@ -196,7 +197,8 @@ struct Secondary {
     }
 };
 template <>
-struct MaterialTraits<Secondary> : IsSurface, IsOpaque, IsWholeAndDark, IsIsotropic {
+struct MaterialTraits<Secondary>
+    : IsSurface, SoftensBentLight, IsOpaque, IsWholeAndDark, IsIsotropic {
     static constexpr PartCount part_count{2, 2};
     static std::vector<MaterialId> parts(Secondary const& m, std::vector<Layer> const&) {
         return m.bsdfs;

@@ -36,7 +36,8 @@ struct Diffuse {
     }
 };
 template <>
-struct MaterialTraits<Diffuse> : IsSurface, IsOpaque, IsWholeAndDark, IsIsotropic, HasNoParts {};
+struct MaterialTraits<Diffuse>
+    : IsSurface, DropsBentLight, IsOpaque, IsWholeAndDark, IsIsotropic, HasNoParts {};
 
 struct Conductor {
     static constexpr schema::TypeInfo info{
@@ -50,7 +51,8 @@ struct Conductor {
     }
 };
 template <>
-struct MaterialTraits<Conductor> : IsSurface, IsOpaque, IsWholeAndDark, IsIsotropic, HasNoParts {};
+struct MaterialTraits<Conductor>
+    : IsSurface, DropsBentLight, IsOpaque, IsWholeAndDark, IsIsotropic, HasNoParts {};
 
 enum class Microfacets { ggx, beckmann };
 constexpr auto choices(Microfacets) { return std::array<std::string_view, 2>{"ggx", "beckmann"}; }
@@ -79,7 +81,7 @@ struct RoughConductor {
 };
 template <>
 struct MaterialTraits<RoughConductor>
-    : IsSurface, IsOpaque, IsWholeAndDark, IsIsotropic, HasNoParts {};
+    : IsSurface, DropsBentLight, IsOpaque, IsWholeAndDark, IsIsotropic, HasNoParts {};
 
 struct Dielectric {
     static constexpr schema::TypeInfo info{
@@ -104,7 +106,8 @@ struct Dielectric {
     }
 };
 template <>
-struct MaterialTraits<Dielectric> : IsSurface, IsWholeAndDark, IsIsotropic, HasNoParts {
+struct MaterialTraits<Dielectric>
+    : IsSurface, DropsBentLight, IsWholeAndDark, IsIsotropic, HasNoParts {
     static std::optional<Input<float>> inner_ior(Dielectric const& m) { return m.ior; }
     static bool passes_straight(Dielectric const&) { return false; }
 };
@@ -145,7 +148,8 @@ struct RoughDielectric {
     }
 };
 template <>
-struct MaterialTraits<RoughDielectric> : IsSurface, IsWholeAndDark, IsIsotropic, HasNoParts {
+struct MaterialTraits<RoughDielectric>
+    : IsSurface, DropsBentLight, IsWholeAndDark, IsIsotropic, HasNoParts {
     static std::optional<Input<float>> inner_ior(RoughDielectric const& m) { return m.ior; }
     static bool passes_straight(RoughDielectric const&) { return false; }
 };
@@ -181,7 +185,8 @@ struct Principled {
     }
 };
 template <>
-struct MaterialTraits<Principled> : IsSurface, IsOpaque, IsWholeAndDark, IsIsotropic, HasNoParts {};
+struct MaterialTraits<Principled>
+    : IsSurface, DropsBentLight, IsOpaque, IsWholeAndDark, IsIsotropic, HasNoParts {};
 
 namespace dialects {
 inline constexpr std::array kVolumes{
@@ -233,7 +238,8 @@ struct VolumeBoundary {
     }
 };
 template <>
-struct MaterialTraits<VolumeBoundary> : IsOpaque, IsWholeAndDark, IsIsotropic, HasNoParts {
+struct MaterialTraits<VolumeBoundary>
+    : DropsBentLight, IsOpaque, IsWholeAndDark, IsIsotropic, HasNoParts {
     static constexpr bool is_null_boundary = true;
     static constexpr bool can_be_part = false;
 };

@@ -28,6 +28,11 @@ bool is_transmissive(Scene const& scene, MaterialId id) {
     return is_null_boundary(material_of(scene, id)) || inner_ior(scene, id);
 }
 
+bool softens_bent_light(Scene const& scene, MaterialId id) {
+    return with_traits(material_of(scene, id),
+                       []<class T>(auto const&) -> bool { return T::softens_bent_light; });
+}
+
 bool passes_straight(Scene const& scene, MaterialId id) {
     if (with_traits(material_of(scene, id),
                     []<class T>(auto const& m) { return T::passes_straight(m); }))

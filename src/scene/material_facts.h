@@ -15,6 +15,9 @@ std::optional<Input<float>> inner_ior(Scene const& scene, MaterialId id);
 /// Returns whether light goes through into the object's inside.
 bool is_transmissive(Scene const& scene, MaterialId id);
 
+/// Returns whether what a bent normal loses has soft borders.
+bool softens_bent_light(Scene const& scene, MaterialId id);
+
 /// Whether light may go straight through the material or parts of it. The opacity of the whole is
 /// left to the object.
 bool passes_straight(Scene const& scene, MaterialId id);

@@ -66,6 +66,16 @@ struct IsIsotropic {
     static bool needs_tangents(auto const&) { return false; }
 };
 
+/// Light that a bent normal sends to the wrong side is lost, and nothing else changes, as in
+/// lightwave.
+struct DropsBentLight {
+    static constexpr bool softens_bent_light = false;
+};
+/// Light that a bent normal sends to the wrong side is lost, and the borders of that are soft.
+struct SoftensBentLight {
+    static constexpr bool softens_bent_light = true;
+};
+
 /// It is made of no other materials.
 struct HasNoParts {
     static constexpr PartCount part_count{0, 0};
@@ -80,6 +90,7 @@ template <class M>
 concept KnownMaterial = requires(M const& m, std::vector<Layer> const& layers) {
     {bool(MaterialTraits<M>::is_null_boundary)};
     {bool(MaterialTraits<M>::can_be_part)};
+    {bool(MaterialTraits<M>::softens_bent_light)};
     { MaterialTraits<M>::inner_ior(m) } -> std::same_as<std::optional<Input<float>>>;
     { MaterialTraits<M>::passes_straight(m) } -> std::same_as<bool>;
     { MaterialTraits<M>::opacity(m) } -> std::same_as<Input<float>>;

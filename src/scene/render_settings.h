@@ -219,6 +219,10 @@ inline constexpr schema::Attr kStrategyAttr{
     .help = "How light is found: by the lights (nee), by the surfaces (bsdf), or both combined by "
             "multiple importance sampling (mis). All have the same mean."};
 
+/// See lobes::BentNormals.
+enum class BentNormals { drop, fold };
+constexpr auto choices(BentNormals) { return std::array<std::string_view, 2>{"drop", "fold"}; }
+
 struct PathIntegrator {
     static constexpr schema::TypeInfo info{
         .category = "integrator",
@@ -233,6 +237,7 @@ struct PathIntegrator {
     Strategy strategy = Strategy::mis;
     int roulette_depth = 3;
     int light_samples = 1;
+    BentNormals normals = BentNormals::drop;
     bool full_materials = false;
     bool caustics = true;
     bool secondary_specular = true;
@@ -257,6 +262,10 @@ struct PathIntegrator {
            .help = "Up to so many lights are sampled at once where a path scatters first; fewer "
                    "where few matter. Worth it where direct light from several lights is what is "
                    "noisy."});
+        f("normals", normals,
+          {.help = "What becomes of light that normal maps and vertex normals send below the "
+                   "surface: it is lost, as elsewhere (drop), or mirrored back, which keeps all "
+                   "energy and flattens relief at low angles (fold)."});
         f("fullMaterials", full_materials,
           {.help = "Materials are themselves also where they name a simpler one for `secondary` "
                    "rays; `weft compare` of both pictures tells what that costs in truth."});

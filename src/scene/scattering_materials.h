@@ -104,7 +104,7 @@ struct Microfacet {
     }
 };
 template <>
-struct MaterialTraits<Microfacet> : IsSurface, IsWholeAndDark, HasNoParts {
+struct MaterialTraits<Microfacet> : IsSurface, SoftensBentLight, IsWholeAndDark, HasNoParts {
     static std::optional<Input<float>> inner_ior(Microfacet const& m) {
         bool const refracts = m.metal == Metal::none && may_differ(m.transmittance, Color(0));
         return refracts ? std::optional(m.ior) : std::nullopt;
@@ -133,7 +133,7 @@ struct Translucent {
 };
 template <>
 struct MaterialTraits<Translucent>
-    : IsSurface, IsOpaque, IsWholeAndDark, IsIsotropic, HasNoParts {};
+    : IsSurface, SoftensBentLight, IsOpaque, IsWholeAndDark, IsIsotropic, HasNoParts {};
 
 struct Transparent {
     static constexpr schema::TypeInfo info{
@@ -150,7 +150,8 @@ struct Transparent {
     }
 };
 template <>
-struct MaterialTraits<Transparent> : IsSurface, IsWholeAndDark, IsIsotropic, HasNoParts {
+struct MaterialTraits<Transparent>
+    : IsSurface, SoftensBentLight, IsWholeAndDark, IsIsotropic, HasNoParts {
     static std::optional<Input<float>> inner_ior(Transparent const&) { return {}; }
     static bool passes_straight(Transparent const& m) {
         return may_differ(m.transmittance, Color(0));
@@ -197,7 +198,7 @@ struct Hair {
     }
 };
 template <>
-struct MaterialTraits<Hair> : IsSurface, IsOpaque, IsWholeAndDark, HasNoParts {
+struct MaterialTraits<Hair> : IsSurface, SoftensBentLight, IsOpaque, IsWholeAndDark, HasNoParts {
     static bool needs_tangents(Hair const&) { return true; }
 };
 

@@ -69,10 +69,9 @@ int most_lobes(Materials const& materials, scene::MaterialId id, bool part, bool
         bool has_choice = false;
         for (Vec3 const& wo : {Vec3(0, 0, 1), Vec3(0.8f, 0, 0.6f)}) {
             View const view{.wo = wo, .look = {.secondary = secondary}};
-            Frame const frame = shading_frame(point, point.ns, view);
-            Shading shading(lobes::Bsdf(frame, view.ng));
+            Shading shading(empty_bsdf(point, view));
             LobeCount count(choice, rng);
-            LobeBuilder builder{materials, point, view, shading, frame};
+            LobeBuilder builder{materials, point, view, shading, shading.bsdf.frame()};
             builder.part = part;
             builder.count = &count;
             builder.build(id);

@@ -30,11 +30,56 @@ std::string title_of(scene::Scene const& scene, scene::MaterialId id) {
 
 } // namespace
 
+namespace {
+
+/// Returns `n`, turned towards unit `wo` until that is just visible.
+Vec3 visible_normal(Vec3 const& n, Vec3 const& wo) {
+    constexpr float least_cosine = 1e-3f;
+    float const cosine = dot(n, wo);
+    return cosine < least_cosine ? normalize(n + wo * (least_cosine - cosine)) : n;
+}
+
+/// Returns `n`, turned towards `ng` until it mirrors `wo` to a hundredth above the surface, or to
+/// nine tenths of wo's own height where that is less. Cycles has the same rule. All are unit, and
+/// `n` and `wo` are on ng's side.
+Vec3 mirroring_normal(Vec3 const& n, Vec3 const& wo, Vec3 const& ng) {
+    float const height = dot(wo, ng);
+    float const least = std::min(0.9f * height, 0.01f);
+    if (2 * dot(n, wo) * dot(n, ng) - height >= least) return n;
+    Vec3 const slope = n - ng * dot(n, ng);
+    if (!(length_squared(slope) > 0)) return n;
+    // In the plane of ng and n, the normal (sqrt(1 - s), sqrt(s)) mirrors (along, height) to the
+    // height 2 (along sqrt(s (1 - s)) + height s) - height. That is `least` for a root of
+    // 4 a s^2 - 2 b s + c = 0: the greater one where n leans away from wo.
+    Vec3 const tangent = normalize(slope);
+    float const along = dot(wo, tangent), goal = least + height;
+    float const a = along * along + height * height, b = 2 * (a + height * least);
+    float const root = safe_sqrt(b * b - 4 * a * goal * goal);
+    float const s = std::min((along < 0 ? b + root : b - root) / (4 * a), 1.f);
+    return tangent * safe_sqrt(1 - s) + ng * std::sqrt(s);
+}
+
+} // namespace
+
+Vec3 surface_normal(SurfacePoint const& point, lobes::BentNormals bent) {
+    bool const smooth = point.lift != Vec3(0) && bent == lobes::BentNormals::Softened;
+    Vec3 const& n = smooth ? point.smooth_normal : point.ng;
+    return dot(point.ng, point.wo) > 0 ? n : -n;
+}
+
 Frame shading_frame(SurfacePoint const& point, Vec3 const& normal, View const& view) {
     Vec3 n = dot(normal, view.ng) < 0 ? -normal : normal;
-    constexpr float least_cosine = 1e-3f;
-    if (float const cosine = dot(n, view.wo); cosine < least_cosine)
-        n = normalize(n + view.wo * (least_cosine - cosine));
+    switch (view.bent) {
+    case lobes::BentNormals::Dropped: // of two sides, wo is on the front
+        n = visible_normal(dot(n, view.wo) < 0 ? -n : n, view.wo);
+        break;
+    case lobes::BentNormals::Softened:
+        n = mirroring_normal(n, view.wo, view.ng);
+        break;
+    case lobes::BentNormals::Folded:
+        n = visible_normal(n, view.wo);
+        break;
+    }
     return point.dpdu == Vec3(0) ? Frame(n) : Frame(n, point.dpdu);
 }
 
@@ -108,7 +153,7 @@ void Materials::shade(scene::MaterialId id, SurfacePoint const& point, View cons
 }
 
 Color Materials::straight(scene::MaterialId id, SurfacePoint const& point, View const& view) const {
-    Shading shading(lobes::Bsdf(shading_frame(point, point.ns, view), view.ng));
+    Shading shading(empty_bsdf(point, view));
     LobeBuilder{*this, point, view, shading, shading.bsdf.frame()}.build(id);
     return shading.bsdf.straight();
 }

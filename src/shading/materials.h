@@ -18,12 +18,14 @@ struct Look {
     bool secondary = false;    ///< after a scattering: simpler stand-ins take a material's place
     float least_roughness = 0; ///< of all that reflects or lets through
     bool diffuse_only = false; ///< nothing mirrors or is glossy; light still goes straight on
+    bool fold = false;         ///< bent normals fold light, whatever the material does with it
 };
 
 /// From where a point is looked at, and how.
 struct View {
-    Vec3 wo{0, 0, 1};      ///< unit
-    Vec3 ng{0, 0, 1};      ///< unit geometric normal on wo's side
+    Vec3 wo{0, 0, 1}; ///< unit
+    Vec3 ng{0, 0, 1}; ///< unit, on wo's side: the surface's normal; see `surface_normal`
+    lobes::BentNormals bent = lobes::BentNormals::Dropped;
     bool entering = true;  ///< wo is on the front side, so that transmission goes in
     float ior_outside = 1; ///< of what surrounds the object here
     Look look;
@@ -36,11 +38,20 @@ struct Shading {
     explicit Shading(lobes::Bsdf const& b) : bsdf(b) {}
 };
 
-/// Returns the frame in which lobes work. Its normal is `n`, the shading normal of the front,
-/// turned to wo's side. Where interpolation has turned `n` away from wo, it is bent until it is
-/// just visible, so that silhouettes are not black. s lies along the point's dpdu, where that is
-/// known.
+/// Returns the unit normal, on the side of the point's wo, that tells reflection from transmission:
+/// that of the smooth surface where the point is lifted to it, else that of the geometry.
+Vec3 surface_normal(SurfacePoint const& point, lobes::BentNormals bent);
+
+/// Returns the frame in which lobes work. Its normal is `n`, a shading normal of the front, turned
+/// to wo's side. Where bent normals are softened, `n` is turned back until it mirrors wo to above
+/// the surface, and where they are folded, until it is just visible. s lies along the point's dpdu,
+/// where that is known.
 Frame shading_frame(SurfacePoint const& point, Vec3 const& n, View const& view);
+
+/// Returns a list of no lobes yet around the point's own shading normal.
+inline lobes::Bsdf empty_bsdf(SurfacePoint const& point, View const& view) {
+    return lobes::Bsdf({shading_frame(point, point.ns, view), view.ng, view.bent});
+}
 
 /// A material whose inputs read the registers of its program.
 struct CompiledMaterial {

@@ -28,6 +28,7 @@ Model WorldBuilder::make_model(Placed const& placed, scene::InstanceTraits const
         model.is_null = scene::is_null_boundary(material);
         model.has_interior = scene::is_transmissive(scene_, traits.bsdf);
         model.is_see_through = !model.has_interior && scene::passes_straight(scene_, traits.bsdf);
+        model.softens_bent_light = scene::softens_bent_light(scene_, traits.bsdf);
         model.opacity.material = scene::opacity_of(material);
         if (auto const own = scene::emission_of(material); own && !traits.emission)
             model.emission = {own->color, own->strength};

@@ -87,6 +87,7 @@ struct Contact {
     /// Of the object; none: the geometry's own space is the world's.
     std::optional<ObjectSpace> space;
     bool tangents = false; ///< whether something looks at dpdu and dpdv
+    bool lifts = false;    ///< whether something looks at the smooth surface of a mesh
 };
 
 /// How u and v grow with position, in world space; perpendicular to the normal.

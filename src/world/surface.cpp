@@ -9,6 +9,8 @@ Contact World::contact(Hit const& hit) const {
     Model const& m = model(hit.object);
     Contact contact{hit};
     contact.tangents = m.needs_tangents;
+    // Where light goes inside, its rays must start at the surface that tells inside from outside.
+    contact.lifts = m.softens_bent_light && !m.has_interior;
     if (!m.in_world_space) contact.space.emplace(transform(hit.object));
     return contact;
 }
@@ -60,6 +62,7 @@ shading::SurfacePoint World::point_at(Contact const& contact, Vec3 const& wo,
     point.object = contact.hit.object;
     point.primitive = contact.hit.primitive;
     match(m.geometry, [&](auto const& g) { point_on(g, contact, point); });
+    point.smooth_normal = point.ns;
     if (m.needs_object_space)
         point.space = contact.space ? *contact.space : space_of(contact.hit.object);
     // Shadow rays, which have no cone, are to see the same holes.
@@ -91,8 +94,7 @@ void World::apply_normal_map(scene::TextureId map, shading::SurfacePoint& point)
     Vec3 const c = textures_.at(map, point);
     Vec3 const n(2 * c.x - 1, 2 * c.y - 1, 2 * c.z - 1);
     if (!(length_squared(n) > 0)) return;
-    Vec3 const mapped = normalize(tangent_frame(point, point.ns).to_world(n));
-    if (dot(mapped, point.ng) > 0) point.ns = mapped;
+    point.ns = normalize(tangent_frame(point, point.ns).to_world(n));
 }
 
 float World::opacity(Hit const& hit, Vec3 const& ng, Vec3 const& direction) const {
@@ -129,8 +131,12 @@ Color World::emission(shading::SurfacePoint const& point, Vec3 const& wo) const 
 
 shading::View World::view_of(shading::SurfacePoint const& point, Vec3 const& wo, float ior_outside,
                              shading::Look const& look) const {
-    bool const entering = dot(point.ng, wo) > 0;
-    return {wo, entering ? point.ng : -point.ng, entering, ior_outside, look};
+    using lobes::BentNormals;
+    BentNormals const bent = look.fold                                ? BentNormals::Folded
+                             : model(point.object).softens_bent_light ? BentNormals::Softened
+                                                                      : BentNormals::Dropped;
+    return {wo,  shading::surface_normal(point, bent), bent, dot(point.ng, wo) > 0, ior_outside,
+            look};
 }
 
 shading::Shading World::shade(shading::SurfacePoint const& point, Vec3 const& wo,
@@ -139,7 +145,7 @@ shading::Shading World::shade(shading::SurfacePoint const& point, Vec3 const& wo
     Model const& m = model(point.object);
     shading::View const view =
         view_of(point, wo, m.has_interior ? stack.current_without(point.object).ior : 1, look);
-    shading::Shading shading(lobes::Bsdf(shading::shading_frame(point, point.ns, view), view.ng));
+    shading::Shading shading(empty_bsdf(point, view));
     shading.emission = emission(point, wo);
     if (m.traits.bsdf) materials_.shade(m.traits.bsdf, point, view, shading);
     return shading;

@@ -20,6 +20,22 @@ UvGradients triangle_gradients(Vec3 const& e1, Vec3 const& e2, Vec2 d1, Vec2 d2)
     return {b1 * d1.x + b2 * d2.x, b1 * d1.y + b2 * d2.y};
 }
 
+/// Returns the way from p = `point.p`, in the mesh's own space, to the smooth surface on wo's side:
+/// the mean, by p's barycentric coordinates, of the ways out to the tangent planes at the vertices
+/// (Hanika 2021, "Hacking the shadow terminator"). 0 where that surface is not seen from its front.
+Vec3 lift(std::array<Vertex, 3> const& v, Vec3 const& weights, Vec3 const& p,
+          shading::SurfacePoint const& s) {
+    float const side = dot(s.ng, s.wo) > 0 ? 1.f : -1.f;
+    if (!(side * dot(s.ns, s.wo) > 0)) return Vec3(0);
+    Vec3 sum(0);
+    for (size_t i = 0; i < 3; ++i) {
+        Vec3 const& n = v[i].n; // of any length
+        float const below = std::min(side * dot(p - v[i].p, n), 0.f);
+        if (below < 0) sum -= n * (side * below * weights[int(i)] / length_squared(n));
+    }
+    return sum;
+}
+
 } // namespace
 
 void point_on(TriangleMesh const& mesh, Contact const& contact, shading::SurfacePoint& point) {
@@ -45,6 +61,7 @@ void point_on(TriangleMesh const& mesh, Contact const& contact, shading::Surface
             point.dpdv = (e2 * d1.x - e1 * d2.x) * (1 / determinant);
         }
     }
+    Vec3 const p = point.p;
     if (contact.space) {
         auto const& [to_world, to_object] = *contact.space;
         normal = to_object.transposed(normal);
@@ -62,6 +79,10 @@ void point_on(TriangleMesh const& mesh, Contact const& contact, shading::Surface
         point.ns = normalize(point.ns);
         // The vertex normals say which side is the front, whatever the winding.
         if (dot(point.ng, point.ns) < 0) point.ng = -point.ng;
+        if (contact.lifts) {
+            point.lift = lift({a, b, c}, {w, hit.u, hit.v}, p, point);
+            if (contact.space) point.lift = contact.space->to_world.vector(point.lift);
+        }
     }
 }
 

@@ -42,6 +42,7 @@ struct alignas(64) Model {
     bool is_null = false;            ///< no surface: rays pass straight on
     bool needs_tangents = false;     ///< something looks at dpdu and dpdv of its points
     bool needs_object_space = false; ///< something looks at more of its points than uv
+    bool softens_bent_light = false; ///< see scene::SoftensBentLight
     int32_t medium = -1;             ///< what fills it; -1: nothing
     uint64_t sets = 0;               ///< that it belongs to, as bits
 

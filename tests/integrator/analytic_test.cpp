@@ -73,7 +73,7 @@ TEST(Furnace, NestedGlassDisappears) {
     }
 }
 
-TEST(Furnace, NormalMapsKeepAllLight) {
+TEST(Furnace, FoldedNormalMapsKeepAllLight) {
     // However strong the map and flat the view, a white surface in a white furnace stays white.
     for (char const* bsdf :
          {R"(<bsdf type="diffuse" albedo="1"/>)", R"(<bsdf type="conductor" reflectance="1"/>)"})
@@ -83,7 +83,8 @@ TEST(Furnace, NormalMapsKeepAllLight) {
                     R"(<camera type="perspective" width="8" height="8" fov="40"><transform><lookat origin="0,-3.9,1" target="0,0,0" up="0,0,1"/></transform></camera>)" +
                         kWhiteSky + "<instance><shape type=\"" + shape + "\"/>" + bsdf +
                         R"(<texture name="normal" type="checkerboard" color0="0.95,0.5,0.6" color1="0.2,0.1,0.65" scale="9,7"/></instance>)",
-                    std::string("type=\"path\" depth=\"-1\" strategy=\"") + strategy + "\"");
+                    std::string("type=\"path\" depth=\"-1\" normals=\"fold\" strategy=\"") +
+                        strategy + "\"");
                 expect_mean(scene, Color(1), 1000, 7, std::string(bsdf) + shape + strategy);
             }
 }

@@ -12,8 +12,8 @@ namespace {
 
 Frame const kFrame(normalize(Vec3(0.3f, -0.5f, 0.8f)), Vec3(1, 0.2f, 0));
 
-Bsdf mixture(Vec3 const& ng, Vec3 const& wo) {
-    Bsdf bsdf(kFrame, ng);
+Bsdf mixture(Vec3 const& ng, Vec3 const& wo, BentNormals bent = BentNormals::Folded) {
+    Bsdf bsdf({kFrame, ng, bent});
     bsdf.add(Color(0.5f, 0.3f, 0.1f), Lambert{});
     bsdf.add(Color(0.3f), GgxReflection{{0.1f, 0.2f}});
     bsdf.add(Color(0.2f, 0.2f, 0.4f), BeckmannDielectric({0.3f, 0.3f}, 1.5f));
@@ -80,7 +80,7 @@ TEST(Bsdf, DeltaAmongSmoothIsUnbiased) {
     int tests = 0;
     for (float const angle : {10.f, 60.f, 85.f}) {
         Vec3 const wo = kFrame.to_world(at_angle(angle));
-        Bsdf bsdf(kFrame, kFrame.n);
+        Bsdf bsdf({kFrame, kFrame.n});
         bsdf.add(Color(0.3f, 0.1f, 0.2f), SpecularReflection{});
         bsdf.add(Color(0.2f, 0.5f, 0.1f), Lambert{});
         bsdf.add(Color(0.4f), SpecularDielectric{1.5f, Color(1), Color(0.5f, 0.9f, 1)});
@@ -108,7 +108,7 @@ TEST(Bsdf, DeltaAmongSmoothIsUnbiased) {
 TEST(Bsdf, OneLobeAlone) {
     for_each_configuration<true>([&](auto const& c) {
         Vec3 const wo = kFrame.to_world(at_angle(40));
-        Bsdf bsdf(kFrame, kFrame.n);
+        Bsdf bsdf({kFrame, kFrame.n});
         bsdf.add(Color(0.5f), c.lobe);
         bsdf.prepare(wo);
         EXPECT_EQ(bsdf[0].pick, 1);
@@ -149,12 +149,13 @@ TEST(Bsdf, NormalsThatDisagreeLeakNoLight) {
     EXPECT_GT(folded, 100);
 }
 
-TEST(Bsdf, NormalsThatDisagreeKeepAllPower) {
+TEST(Bsdf, FoldedNormalsKeepAllPower) {
     // However far the shading normal is bent, white stays white, and densities integrate to 1.
     for (float const bend : {10.f, 40.f, 75.f}) {
         Vec3 const ng = kFrame.to_world(at_angle(bend, 0)), wo = kFrame.to_world(at_angle(10, 60));
         if (!(dot(wo, ng) > 0)) continue;
-        Bsdf diffuse(kFrame, ng), mirror(kFrame, ng);
+        LobeFrame const frame{kFrame, ng, BentNormals::Folded};
+        Bsdf diffuse(frame), mirror(frame);
         diffuse.add(Color(1), Lambert{});
         mirror.add(Color(1), SpecularReflection{});
         Rng rng(uint64_t(bend) + 9);
@@ -179,7 +180,7 @@ TEST(Bsdf, NormalsThatDisagreeKeepAllPower) {
 
 TEST(Bsdf, Bookkeeping) {
     Vec3 const wo = kFrame.n;
-    Bsdf bsdf(kFrame, kFrame.n);
+    Bsdf bsdf({kFrame, kFrame.n});
     EXPECT_EQ(bsdf.sample(wo, Vec3(0.5f)).pdf, 0);
     bsdf.add(Color(0), Lambert{});
     EXPECT_EQ(bsdf.size(), 0);
@@ -196,7 +197,7 @@ TEST(Bsdf, Bookkeeping) {
     bsdf.prepare(wo);
 
     Bsdf const copy = bsdf;
-    Bsdf assigned(kFrame, -kFrame.n);
+    Bsdf assigned({kFrame, -kFrame.n});
     assigned = copy;
     EXPECT_EQ(assigned.size(), Bsdf::capacity);
     Vec3 const wi = kFrame.to_world(at_angle(30));
@@ -226,7 +227,7 @@ TEST(Bsdf, LookUpsAreThoseOfEveryEval) {
                         EXPECT_NEAR(again.f[k], v.f[k], c.resolution * v.f[k]) << c.name;
                 }
             }
-            Bsdf bsdf(Frame(Vec3(0, 0, 1)), {0, 0, 1}), known(Frame(Vec3(0, 0, 1)), {0, 0, 1});
+            Bsdf bsdf({Frame(Vec3(0, 0, 1)), {0, 0, 1}}), known({Frame(Vec3(0, 0, 1)), {0, 0, 1}});
             bsdf.add(Color(0.3f), c.lobe);
             known.add_looked_up(Color(0.3f), with_albedo, 0, albedo);
             for (Bsdf* b : {&bsdf, &known}) {

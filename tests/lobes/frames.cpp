@@ -12,9 +12,11 @@ namespace {
 
 Vec3 const kNg(0, 0, 1);
 
+constexpr std::array kRules{BentNormals::Dropped, BentNormals::Softened, BentNormals::Folded};
+
 /// A base, a coat and a sheet that scatters through, each bent by `bend` degrees its own way.
-Bsdf bent(float bend, Vec3 const& wo) {
-    Bsdf bsdf(Frame(at_angle(bend, 30)), kNg);
+Bsdf bent(float bend, Vec3 const& wo, BentNormals rule) {
+    Bsdf bsdf({Frame(at_angle(bend, 30)), kNg, rule});
     bsdf.add(Color(0.4f, 0.3f, 0.2f), Lambert{});
     bsdf.use_frame(Frame(at_angle(bend, 200), Vec3(0, 1, 0)));
     bsdf.add(Color(0.2f, 0.3f, 0.3f), GgxReflection{{0.2f, 0.4f}});
@@ -28,9 +30,9 @@ Bsdf bent(float bend, Vec3 const& wo) {
 TEST(Frames, SamplesFollowTheDensity) {
     std::vector<SphereTest> tests;
     for (float const bend : {15.f, 40.f})
-        for (float const angle : {5.f, 45.f}) {
-            Vec3 const wo = at_angle(angle, 80);
-            Bsdf const bsdf = bent(bend, wo);
+        for (BentNormals const rule : kRules) {
+            Vec3 const wo = at_angle(bend == 15 ? 5 : 45, 80);
+            Bsdf const bsdf = bent(bend, wo, rule);
             auto const sample = [&](Vec3 const& u) {
                 BsdfSample const s = bsdf.sample(wo, u);
                 return s.pdf > 0 ? s.wi : Vec3(0);
@@ -51,14 +53,17 @@ TEST(Frames, SamplesFollowTheDensity) {
 
 TEST(Frames, SamplesWeighWhatEvalSays) {
     Vec3 const wo = at_angle(35, 80);
-    Bsdf const bsdf = bent(40, wo);
-    Rng rng(3);
-    for (int i = 0; i < 2000; ++i) {
-        BsdfSample const s = bsdf.sample(wo, rng.next3());
-        if (!(s.pdf > 0)) continue;
-        LobeValue const v = bsdf.eval(wo, s.wi);
-        EXPECT_EQ(v.pdf, s.pdf);
-        for (int k = 0; k < 3; ++k) EXPECT_NEAR(s.weight[k] * s.pdf, v.f[k], 1e-5f * v.f[k]);
+    for (BentNormals const rule : kRules) {
+        Bsdf const bsdf = bent(40, wo, rule);
+        Rng rng(3);
+        for (int i = 0; i < 2000; ++i) {
+            BsdfSample const s = bsdf.sample(wo, rng.next3());
+            if (!(s.pdf > 0)) continue;
+            LobeValue const v = bsdf.eval(wo, s.wi);
+            EXPECT_EQ(v.pdf, s.pdf);
+            EXPECT_EQ(s.scattering.through, s.wi.z < 0);
+            for (int k = 0; k < 3; ++k) EXPECT_NEAR(s.weight[k] * s.pdf, v.f[k], 1e-5f * v.f[k]);
+        }
     }
 }
 
@@ -66,13 +71,13 @@ TEST(Frames, SamplesWeighWhatEvalSays) {
 TEST(Frames, EvalIsTheSumOverFrames) {
     Vec3 const wo = at_angle(35, 80);
     Frame const frames[]{Frame(at_angle(30, 30)), Frame(at_angle(40, 200)), Frame(kNg)};
-    Bsdf all(frames[0], kNg);
+    Bsdf all({frames[0], kNg});
     std::vector<Bsdf> alone;
     for (int i = 0; i < 6; ++i) { // back and forth between them
         Frame const& frame = frames[size_t(i % 3)];
         all.use_frame(frame);
         all.add(Color(0.1f), GgxReflection{{0.3f, 0.3f}});
-        alone.emplace_back(frame, kNg);
+        alone.emplace_back(LobeFrame{frame, kNg});
         alone.back().add(Color(0.1f), GgxReflection{{0.3f, 0.3f}});
     }
     Rng rng(4);
@@ -90,7 +95,7 @@ TEST(Frames, FoldingKeepsAllPower) {
     for (float const bend : {20.f, 60.f})
         for (float const angle : {0.f, 25.f}) {
             Vec3 const wo = at_angle(angle, 80);
-            Bsdf bsdf(Frame(at_angle(bend, 30)), kNg);
+            Bsdf bsdf({Frame(at_angle(bend, 30)), kNg, BentNormals::Folded});
             bsdf.add(Color(0.5f), Lambert{});
             bsdf.use_frame(Frame(at_angle(bend, 200)));
             bsdf.add(Color(0.3f), OrenNayar(Color(1), 1));
@@ -124,8 +129,64 @@ TEST(Frames, FoldingKeepsAllPower) {
     EXPECT_EQ(tests, 12); // what the correction assumes
 }
 
+/// Of the cosine lobe around a normal that is bent by b, the part (1 + cos b) / 2 lies above the
+/// surface.
+TEST(Frames, DroppedLightIsWhatLiesBelow) {
+    Vec3 const wo = at_angle(10, 80);
+    for (float const bend : {0.f, 20.f, 60.f}) {
+        Bsdf bsdf({Frame(at_angle(bend, 30)), kNg});
+        bsdf.add(Color(1), Lambert{});
+        bsdf.prepare(wo);
+        Rng rng(uint64_t(bend) + 1);
+        std::vector<double> sampled, evaluated;
+        for (int i = 0; i < 60000; ++i) {
+            BsdfSample const s = bsdf.sample(wo, rng.next3());
+            sampled.push_back(s.pdf > 0 ? double(s.weight.g) : 0);
+            Vec3 const wi = square_to_sphere(rng.next2());
+            evaluated.push_back(double(bsdf.eval(wo, wi).f.g) * 4 * M_PI);
+        }
+        double const power = (1 + std::cos(double(radians(bend)))) / 2;
+        for (auto const& values : {sampled, evaluated}) {
+            auto const e = weft::testing::estimate(values);
+            double const beyond = std::max(std::abs(e.mean - power) - 1e-5, 0.0);
+            EXPECT_TRUE(beyond == 0 || weft::testing::normal_tail(beyond / std::sqrt(e.variance)) >=
+                                           weft::testing::sidak(0.01, 6))
+                << e.mean << " instead of " << power << " at " << bend;
+        }
+    }
+}
+
+/// The equations of Chiang, Li and Burley 2019, for directions all around.
+TEST(Frames, SoftenedDiffuseLightFades) {
+    Vec3 const wo = at_angle(10, 80);
+    for (float const bend : {0.f, 5.f, 30.f, 70.f}) {
+        Vec3 const n = at_angle(bend, 30);
+        Bsdf soft({Frame(n), kNg, BentNormals::Softened}), hard({Frame(n), kNg}), glossy = soft;
+        for (Bsdf* b : {&soft, &hard}) b->add(Color(1), OrenNayar(Color(0.8f), 0.5f));
+        glossy.add(Color(1), GgxReflection{{0.4f, 0.4f}});
+        Bsdf glossy_hard({Frame(n), kNg});
+        glossy_hard.add(Color(1), GgxReflection{{0.4f, 0.4f}});
+        for (Bsdf* b : {&soft, &hard, &glossy, &glossy_hard}) b->prepare(wo);
+        Rng rng(uint64_t(bend) + 1);
+        int faded = 0;
+        for (int i = 0; i < 4000; ++i) {
+            Vec3 const wi = square_to_sphere(rng.next2());
+            LobeValue const s = soft.eval(wo, wi), h = hard.eval(wo, wi);
+            EXPECT_EQ(s.pdf, h.pdf);
+            double const g = std::min(
+                1.0, double(wi.z) / (double(dot(wi, n)) * std::cos(double(radians(bend)))));
+            double const fade = wi.z > 0 && dot(wi, n) > 0 ? -g * g * g + g * g + g : 0;
+            EXPECT_NEAR(double(s.f.g), fade * double(h.f.g), 2e-4 * double(h.f.g)) << bend;
+            faded += s.f.g < 0.99f * h.f.g;
+            // What is glossy has a border of its own.
+            EXPECT_EQ(glossy.eval(wo, wi).f, glossy_hard.eval(wo, wi).f);
+        }
+        EXPECT_EQ(faded > 50, bend > 1) << bend;
+    }
+}
+
 TEST(Frames, ThereIsRoomForOneOfEachLobe) {
-    Bsdf bsdf(Frame(kNg), kNg);
+    Bsdf bsdf({Frame(kNg), kNg});
     for (int i = 0; i < Bsdf::capacity; ++i) {
         bsdf.use_frame(Frame(at_angle(80, float(i) + 200))); // without a lobe it takes no room
         bsdf.use_frame(Frame(at_angle(float(i + 1), 0)));
@@ -139,7 +200,7 @@ TEST(Frames, ThereIsRoomForOneOfEachLobe) {
 }
 
 TEST(Frames, AreFoundAgain) {
-    Bsdf bsdf(Frame(kNg), kNg);
+    Bsdf bsdf({Frame(kNg), kNg});
     Frame const other(at_angle(20));
     for (int i = 0; i < 6; ++i) {
         bsdf.use_frame(i % 2 ? other : Frame(kNg));

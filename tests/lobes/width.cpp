@@ -24,7 +24,7 @@ TEST(Width, IsZeroForDeltaLobesAndOneForDiffuseOnes) {
             EXPECT_GT(width, 0) << c.name;
             EXPECT_LE(width, 1) << c.name;
         }
-        Bsdf bsdf(Frame(Vec3(0, 0, 1)), {0, 0, 1});
+        Bsdf bsdf({Frame(Vec3(0, 0, 1)), {0, 0, 1}});
         bsdf.add(Color(1), c.lobe);
         EXPECT_EQ(width_of(bsdf[0]), width) << c.name;
     };

@@ -53,8 +53,11 @@ class MaterialBench {
         point.wo = wo;
         point.uv = uv;
         bool const entering = wo.z > 0;
-        shading::View const view{wo, {0, 0, entering ? 1.f : -1.f}, entering, 1, {secondary}};
-        shading::Shading shading(lobes::Bsdf(shading_frame(point, point.ns, view), view.ng));
+        shading::View const view{.wo = wo,
+                                 .ng = {0, 0, entering ? 1.f : -1.f},
+                                 .entering = entering,
+                                 .look = {secondary}};
+        shading::Shading shading(empty_bsdf(point, view));
         materials_.shade(id, point, view, shading);
         return shading;
     }
