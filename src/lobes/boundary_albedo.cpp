@@ -1,5 +1,6 @@
 #include "lobes/boundary_albedo.h"
 
+#include <bit>
 #include <span>
 
 #include "base/memo.h"
@@ -10,26 +11,26 @@ namespace weft::lobes {
 namespace {
 
 // The lattice. Between nodes along the axes albedos are interpolated linearly.
-constexpr float kCosines = 64;  ///< equal steps of the cosine's root in [0, 1]
+constexpr float kCosines = 128; ///< equal steps of the cosine's root in [0, 1]
 constexpr float kAzimuths = 16; ///< equal steps of a quarter turn
 constexpr float kThickness = 4; ///< nm between steps
-// With alphas and indices of refraction albedos change little: the nearest node speaks for them.
-constexpr float kAlphas = 50;   ///< steps for each doubling
-constexpr float kIndices = 256; ///< steps for each doubling
+// With alphas albedos change little: the nearest node speaks for them. Indices of refraction, which
+// few materials vary, are taken as they are.
+constexpr float kAlphas = 100; ///< steps for each doubling
 /// Visible normals that an albedo is the mean over.
 constexpr int kNormals = 987;
 
 enum Axis { kCosine, kAzimuth, kFilmThickness, kAxes };
 
-/// A node. All numbers count steps; those of alphas and indices are logarithms.
+/// A node. Places count steps, those of alphas from 1 down in logarithms; indices are the bits of
+/// floats.
 struct Node {
     uint16_t kind; ///< of the distribution
     std::array<uint16_t, kAxes> place;
-    int16_t alpha_x, alpha_y;
-    int16_t eta, reflection_eta, film_ior, outer_ior; ///< kNone: there is no such index
-    static constexpr int16_t kNone = INT16_MIN;
+    uint16_t alpha_x, alpha_y;
+    uint32_t eta, reflection_eta, film_ior, outer_ior; ///< 0: there is no such index
 };
-static_assert(sizeof(Node) == 20);
+static_assert(sizeof(Node) == 28);
 
 /// Two colours without padding.
 struct NodeAlbedo {
@@ -40,12 +41,10 @@ struct NodeAlbedo {
 /// parameters, needs.
 Memo<Node, NodeAlbedo, 1 << 18> known_albedos;
 
-int16_t nearest_step(float x, float steps) {
-    return int16_t(std::clamp(std::round(std::log2(x) * steps), -30000.f, 30000.f));
+uint16_t alpha_step(float alpha) {
+    return uint16_t(std::clamp(std::round(-std::log2(alpha) * kAlphas), 0.f, 60000.f));
 }
-float at_step(int16_t step, float steps) { return std::exp2(float(step) / steps); }
-int16_t index_step(float index) { return nearest_step(index, kIndices); }
-float index_at(int16_t step) { return at_step(step, kIndices); }
+float alpha_at(uint16_t step) { return std::exp2(-float(step) / kAlphas); }
 
 template <class Distribution>
 constexpr uint16_t kKind = 0;
@@ -61,13 +60,14 @@ NodeAlbedo albedo_at(Node const& node, Shadowing shadowing) {
     float const z = std::max(root * root, 1e-4f), sine = safe_sqrt(1 - z * z);
     float const phi = float(at[kAzimuth]) / kAzimuths * (kPi / 2);
     BoundaryOptions options;
-    if (node.reflection_eta != Node::kNone) options.reflection_eta = index_at(node.reflection_eta);
-    if (node.film_ior != Node::kNone)
-        options.film = {float(at[kFilmThickness]) * kThickness, index_at(node.film_ior),
-                        index_at(node.outer_ior)};
+    options.reflection_eta = std::bit_cast<float>(node.reflection_eta);
+    if (node.film_ior)
+        options.film = {float(at[kFilmThickness]) * kThickness, std::bit_cast<float>(node.film_ior),
+                        std::bit_cast<float>(node.outer_ior)};
     BoundarySplit const s = boundary_albedo_over_normals(
-        Distribution{at_step(node.alpha_x, kAlphas), at_step(node.alpha_y, kAlphas), shadowing},
-        index_at(node.eta), options, {sine * std::cos(phi), sine * std::sin(phi), z}, kNormals);
+        Distribution{alpha_at(node.alpha_x), alpha_at(node.alpha_y), shadowing},
+        std::bit_cast<float>(node.eta), options, {sine * std::cos(phi), sine * std::sin(phi), z},
+        kNormals);
     return {{s.reflected.r, s.reflected.g, s.reflected.b},
             {s.transmitted.r, s.transmitted.g, s.transmitted.b}};
 }
@@ -115,21 +115,19 @@ BoundarySplit boundary_albedo(Distribution const& d, float eta, BoundaryOptions 
                               Vec3 const& wo) {
     Node node{.kind = uint16_t(2 * kKind<Distribution> + uint16_t(d.shadowing)),
               .place = {},
-              .alpha_x = nearest_step(d.alpha_x, kAlphas),
-              .alpha_y = nearest_step(d.alpha_y, kAlphas),
-              .eta = index_step(eta),
-              .reflection_eta = Node::kNone,
-              .film_ior = Node::kNone,
-              .outer_ior = Node::kNone};
+              .alpha_x = alpha_step(d.alpha_x),
+              .alpha_y = alpha_step(d.alpha_y),
+              .eta = std::bit_cast<uint32_t>(eta),
+              .reflection_eta = std::bit_cast<uint32_t>(std::max(options.reflection_eta, 0.f)),
+              .film_ior = 0,
+              .outer_ior = 0};
     std::array<float, kAxes> place{};
     place[kCosine] = std::sqrt(std::clamp(wo.z, 0.f, 1.f)) * kCosines;
     if (node.alpha_x != node.alpha_y)
         place[kAzimuth] = std::atan2(std::abs(wo.y), std::abs(wo.x)) / (kPi / 2) * kAzimuths;
-    if (node.eta == 0) node.eta = eta > 1 ? 1 : -1;
-    if (options.reflection_eta > 0) node.reflection_eta = index_step(options.reflection_eta);
     if (options.film) {
-        node.film_ior = index_step(options.film.ior);
-        node.outer_ior = index_step(options.film.outer_ior);
+        node.film_ior = std::bit_cast<uint32_t>(options.film.ior);
+        node.outer_ior = std::bit_cast<uint32_t>(options.film.outer_ior);
         place[kFilmThickness] = std::min(options.film.thickness / kThickness, 60000.f);
     }
 

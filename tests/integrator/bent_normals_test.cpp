@@ -122,7 +122,7 @@ TEST(BentNormals, OfASmoothCone) {
     TemporaryFolder const folder;
     write_ply(folder / "cone.ply", smooth_cone());
     std::string const camera =
-        R"(<camera type="perspective" width="8" height="8" fov="9"><transform><lookat origin="6,1,0.8" target="0.4,0,0.3" up="0,0,1"/></transform></camera>)";
+        R"(<camera type="perspective" width="8" height="8" fov="5"><transform><lookat origin="6,1,0.8" target="0.4,0,0.5" up="0,0,1"/></transform></camera>)";
     auto const scene =
         make_scene(camera + kWhiteSky + R"(<instance><shape type="mesh" filename="cone.ply"/>)" +
                        kHard + "</instance>",
