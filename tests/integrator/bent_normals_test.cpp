@@ -93,10 +93,10 @@ TEST(BentNormals, UnderTheSun) {
     }
 }
 
-/// A closed cone of 12 flat sides about the z axis, with the normals of a round one.
+/// A closed cone of 4 flat sides about the z axis, with the normals of a round one.
 scene::Mesh smooth_cone() {
     scene::Mesh mesh;
-    int const sides = 12;
+    int const sides = 4;
     auto ring = [&](double turn) { return 2 * M_PI * turn / sides; };
     for (int i = 0; i < sides; ++i) {
         uint32_t const first = uint32_t(mesh.positions.size());
@@ -140,7 +140,7 @@ TEST(BentNormals, OfASmoothCone) {
     Estimate const expected = estimate(truth), found = block_estimates(scene, 2000, 8, 5)[1];
     EXPECT_GT(difference_p_value(found, expected), 0.01)
         << found.mean << " instead of " << expected.mean;
-    EXPECT_LT(expected.mean, 0.8 * 0.99);
+    EXPECT_LT(expected.mean, 0.8 * 0.97);
 }
 
 /// Where the normals say that the sun shines on a coarse ball, its own triangles do not shade it.
