@@ -62,6 +62,7 @@ Layout::Layout(std::span<Aov const> aovs, LayoutOptions options) : options_(std:
     there_[size_t(Aov::beauty)] = true;
     for (Aov aov : aovs) there_[size_t(aov)] = true;
     options_.squares |= has(Aov::variance);
+    there_[size_t(Aov::denoise_kept)] |= has(Aov::denoise_albedo) || has(Aov::denoise_normal);
     // What is not asked for leaves no trace: equal layouts are layouts of equal films.
     if (!has(Aov::light_groups)) options_.light_groups = {kDefaultGroup};
     if (!has(Aov::layers)) options_.layers = {kDefaultGroup};

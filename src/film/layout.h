@@ -64,7 +64,8 @@ class Layout {
   public:
     /// Beauty alone.
     Layout() : Layout({}, {}) {}
-    /// Beauty and `aovs`, in any order and number. `variance` brings squares.
+    /// Beauty and `aovs`, in any order and number. `variance` brings squares, and a denoiser's
+    /// guides bring `denoise_kept`.
     Layout(std::span<Aov const> aovs, LayoutOptions options);
 
     bool has(Aov aov) const { return there_[size_t(aov)]; }

@@ -46,6 +46,9 @@ struct Contribution {
     PathSignature const& path;
     int32_t object = -1; ///< index of the emissive object that a ray met; -1: none
     Found found = Found::ByRay;
+    /// The camera sees the light straight and in focus, with nothing in between: only its edges
+    /// have noise.
+    bool is_sharp = false;
 
     bool is_sampled() const { return found == Found::BySampling; }
     /// Returns how often the light was scattered on its way to the camera: also by the vertex that

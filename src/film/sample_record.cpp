@@ -74,6 +74,7 @@ void SampleRecord::add_light(Contribution const& c) {
                                             : tags_.group_of_object[size_t(c.object)];
         add_to(Aov::light_groups, c.value, group);
     }
+    if (c.is_sharp) add_to(Aov::denoise_kept, c.value);
     uint32_t const bounces = c.bounces();
     if (bounces == 0) {
         add_to(Aov::layers, c.value);

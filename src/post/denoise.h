@@ -31,7 +31,8 @@ struct DenoiseInput {
     image::Image const* albedo = nullptr; ///< of the first surface, in [0, 1]; may be null
     image::Image const* normal = nullptr; ///< unit vectors in any frame, 0 for none; may be null
     /// Light that is part of the colour and stays as it is, such as that of lamps in view; may be
-    /// null. The rest is denoised without it.
+    /// null. The rest is denoised without it. For the network bright light has coarse steps: it
+    /// moves the edges of what is far brighter than white by more than their noise.
     image::Image const* kept = nullptr;
 };
 

@@ -72,6 +72,11 @@ std::string find_normal_layer(std::vector<std::string> const& channels) {
     return find_named(channels, names);
 }
 
+std::string find_kept_layer(std::vector<std::string> const& channels) {
+    static constexpr char const* names[] = {"denoise_kept"};
+    return find_named(channels, names);
+}
+
 image::Image take_channels(image::Image const& from, ChannelTriple const& channels) {
     image::Image result = image::make_image(from.width, from.height, 3);
     for (int y = 0; y < from.height; ++y)

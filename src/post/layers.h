@@ -24,6 +24,8 @@ std::optional<ChannelTriple> find_layer(std::vector<std::string> const& channels
 /// "denoise_normal", "denoising normal", "normal", "normals", "N", "Ns", "sh_normal".
 std::string find_albedo_layer(std::vector<std::string> const& channels);
 std::string find_normal_layer(std::vector<std::string> const& channels);
+/// Returns the layer "denoise_kept", likewise: light that a denoiser leaves as it is.
+std::string find_kept_layer(std::vector<std::string> const& channels);
 
 /// Returns the names of all layers of three channels, in the order of the file.
 std::vector<std::string> layer_names(std::vector<std::string> const& channels);

@@ -90,6 +90,9 @@ enum class AovSource : uint8_t {
       "by way of those.")                                                                          \
     X(denoise_normal, "denoise_normal", "XYZ", Mean, Guides,                                       \
       "Guide for denoisers: normal of that surface.")                                              \
+    X(denoise_kept, "denoise_kept", "RGB", Mean, Contribution,                                     \
+      "For denoisers: light that the camera sees straight and in focus, which has no noise to "    \
+      "take out. Comes with the two guides.")                                                      \
     X(crypto_object, "CryptoObject", "", Ids, FirstSurface, "Cryptomatte by the id of instances.") \
     X(crypto_material, "CryptoMaterial", "", Ids, FirstSurface,                                    \
       "Cryptomatte by the id of materials.")                                                       \

@@ -117,6 +117,15 @@ float CameraRays::depth(Vec3 const& p) const {
     return dot(to_p, normalize(to_world_.vector({0, 0, 1})));
 }
 
+float CameraRays::blur_at(float inverse_depth) const {
+    auto const* const lens = std::get_if<ThinLensView>(&view_);
+    if (!lens) return 0;
+    float const unit = length(to_world_.vector({0, 0, 1})); // of the camera's space, in the world
+    // The lens as seen from the point, on the plane in focus: 2 r |1 - focal / depth|.
+    return lens->radius * std::abs(1 / lens->focal_distance - unit * inverse_depth) /
+           lens->screen.half_pixel(size_);
+}
+
 Ray CameraRays::ray(Vec2 raster, Vec2 lens, float time, float footprint_scale) const {
     CameraRay const own = match(view_, [&](auto const& v) { return v.ray(raster, size_, lens); });
     Ray ray;

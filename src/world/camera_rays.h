@@ -87,6 +87,10 @@ class CameraRays {
     Vec3 position() const { return to_world_.origin; }
     /// Returns how far `p` lies along the camera's axis, or from a camera that looks all around.
     float depth(Vec3 const& p) const;
+    /// Returns how wide the spot is that a point makes on the picture, in pixels: 0 where it is in
+    /// focus.
+    float blur(Vec3 const& p) const { return blur_at(1 / depth(p)); }
+    float blur_at_infinity() const { return blur_at(0); }
     /// Returns whether `lens` matters to `ray`.
     bool has_lens() const { return std::holds_alternative<ThinLensView>(view_); }
 
@@ -95,6 +99,8 @@ class CameraRays {
     Ray ray(Vec2 raster, Vec2 lens, float time, float footprint_scale = 1) const;
 
   private:
+    float blur_at(float inverse_depth) const;
+
     CameraView view_;
     Affine to_world_;
     Vec2i size_{1, 1};

@@ -111,6 +111,16 @@ if command -v oiiotool >/dev/null; then
     oiiotool kept.exr --ch R,G,B -o whole.exr
     expect 0 "$weft" compare sum.exr whole.exr --mae 2e-4
     expect 1 "$weft" compare kept.exr done.exr --mae 0
+
+    # What the renderer says has no noise stays as it is, by itself.
+    oiiotool noisy.exr key.exr --chnames denoise_kept.R,denoise_kept.G,denoise_kept.B --chappend -o marked.exr
+    expect 0 "$weft" denoise marked.exr --backend nlm -o kept.exr
+    has "without light in view" err
+    expect 0 "$weft" denoise marked.exr --keep denoise_kept --backend nlm -o same.exr
+    expect 0 "$weft" compare kept.exr same.exr --mae 0
+    expect 0 "$weft" denoise marked.exr --keep none --backend nlm -o same.exr
+    grep -q "without light in view" err && fail "--keep none keeps something"
+    expect 1 "$weft" compare kept.exr same.exr --mae 0
     expect 2 "$weft" denoise layers.exr --keep l_kye -o x.exr
     has "layers.exr: expected a layer 'l_kye' of three channels (did you mean 'l_key'?)" err
     expect 2 "$weft" denoise layers.exr --parts l_key -o x.exr

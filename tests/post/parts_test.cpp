@@ -79,6 +79,8 @@ TEST(Layers, AreFoundByTheirNames) {
     EXPECT_EQ(find_albedo_layer({"albedo.R", "albedo.G", "albedo.B", "denoise_albedo.R",
                                  "denoise_albedo.G", "denoise_albedo.B"}),
               "denoise_albedo");
+    EXPECT_EQ(find_kept_layer(with("x.denoise_kept", "RGB")), "x.denoise_kept");
+    EXPECT_EQ(find_kept_layer(with("emission", "RGB")), "") << "which may be out of focus";
     EXPECT_EQ(find_albedo_layer(with("diffuse", "RGB")), "");
     EXPECT_EQ(find_normal_layer({"R", "G", "B"}), "");
 }

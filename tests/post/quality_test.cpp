@@ -30,6 +30,7 @@ constexpr QualityCase kCases[] = {
     {"roughness", "figures/roughness.xml"},
     {"shader_sheet", "figures/shader_sheet.xml"},
     {"bounce_cards", "figures/bounce_cards.xml"},
+    {"light_or_card", "figures/light_or_card.xml"}, // lamps in view
 };
 
 class DenoisingQuality : public ::testing::TestWithParam<QualityCase> {
@@ -55,12 +56,12 @@ TEST_P(DenoisingQuality, LittleNoiseIsLeft) {
         return take_channels(rendered, find_layer(rendered.names, name).value());
     };
     image::Image const noisy = layer(""), albedo = layer("denoise_albedo"),
-                       normal = layer("denoise_normal");
+                       normal = layer("denoise_normal"), kept = layer("denoise_kept");
     image::Difference const before = image::compare(noisy, reference);
     ASSERT_LT(std::abs(before.me), 0.1 * std::sqrt(before.mse))
         << "the reference is of another picture: render it anew";
     for (Backend backend : {Backend::network, Backend::nlm}) {
-        DenoiseInput const input{&noisy, &albedo, &normal};
+        DenoiseInput const input{&noisy, &albedo, &normal, &kept};
         bool const network = backend == Backend::network;
         if (network && !find_weights(weights_files(input, Quality::high), weight_folders())) {
             std::cout << "no weights here (tools/setup denoise): the network is not tested\n";

@@ -451,6 +451,42 @@ TEST(Guides, AreFilteredLikeBeauty) {
     EXPECT_GT(between, 3) << "no edge, or a sharp one";
 }
 
+/// A square lamp in the middle of the picture, four away, and what is between it and the camera.
+std::string lamp_seen(std::string const& camera, std::string const& between = "") {
+    return "<camera width=\"20\" height=\"20\" fov=\"40\" " + camera + "/>" + between + R"(
+        <light type="area"><instance><shape type="rectangle"/><emission type="lambertian" emission="9,8,7"/><transform><scale value="0.7"/><rotate axis="0,1,0" angle="180"/><translate z="4"/></transform></instance></light>
+        <light type="envmap"><texture type="constant" value="0.3,0.4,0.5"/></light>)";
+}
+
+TEST(Guides, KeepLightInFocusAlone) {
+    // The corner shows the sky, the middle the lamp. The lens spreads a point at distance z over
+    // 0.2 |1 / focus - 1 / z| / 0.0182 pixels.
+    auto const kept = [](std::string const& contents) {
+        Channels const c(render_aovs(contents, {Aov::denoise_albedo}).film);
+        return std::pair(c.at("denoise_kept.G", 10, 10), c.at("denoise_kept.G", 0, 0));
+    };
+    using Kept = std::pair<float, float>;
+    std::string const pinhole = "type=\"perspective\"",
+                      lens = "type=\"thinlens\" lensRadius=\"0.2\" focalDistance=";
+    EXPECT_EQ(kept(lamp_seen(pinhole)), Kept(8, 0.4f));
+    EXPECT_EQ(kept(lamp_seen(lens + "\"4.5\"")), Kept(8, 0)) << "0.3 and 2.4 pixels";
+    EXPECT_EQ(kept(lamp_seen(lens + "\"15\"")), Kept(0, 0.4f)) << "2.0 and 0.7";
+    EXPECT_EQ(kept(lamp_seen(lens + "\"2\"")), Kept(0, 0)) << "2.7 and 5.5";
+    std::string const pane =
+        R"(<instance alpha="ALPHA"><shape type="rectangle"/>BSDF<transform><translate z="2"/></transform></instance>)";
+    auto const behind = [&](std::string const& alpha, std::string const& bsdf) {
+        std::string text = pane;
+        text.replace(text.find("ALPHA"), 5, alpha);
+        text.replace(text.find("BSDF"), 4, bsdf);
+        return lamp_seen(pinhole, text);
+    };
+    EXPECT_EQ(kept(behind("0.5", "<bsdf type=\"diffuse\"/>")).first, 0) << "noisy holes";
+    EXPECT_EQ(kept(behind("1", "<bsdf type=\"transparent\" transmittance=\"0.5\"/>")).first, 0);
+    EXPECT_EQ(
+        kept(lamp_seen(pinhole, R"(<medium type="homogeneous" absorption="0" scatter="0.1"/>)")),
+        Kept(0, 0));
+}
+
 /// A mask by the specification's procedure: the coverage of every rank whose id is that of `name`.
 double mask(Channels const& c, std::string const& layer, std::string const& name, size_t pixel) {
     uint32_t const id = film::cryptomatte_id(name);

@@ -96,6 +96,14 @@ image::Image sum_of(DenoiseArguments const& a, image::Image const& image,
     return sum;
 }
 
+/// The layers that stay as they are: those of --keep, or else the one that is made for it.
+std::vector<std::string> kept_layers(DenoiseArguments const& a, image::Image const& image) {
+    if (a.keep == std::vector<std::string>{"none"}) return {};
+    if (!a.keep.empty()) return expanded(a.keep, image.names);
+    std::string const usual = post::find_kept_layer(image.names);
+    return usual.empty() ? std::vector<std::string>() : std::vector{usual};
+}
+
 /// Parts that are to be denoised beside the whole must sum to it.
 void check_sum(DenoiseArguments const& a, image::Image const& color,
                std::vector<image::Image> const& parts) {
@@ -147,7 +155,7 @@ int run(DenoiseArguments& a) {
         guide(a, image, "albedo", a.albedo, post::find_albedo_layer(image.names));
     image::Image const normal = post::unpack_normals(
         guide(a, image, "normal", a.normal, post::find_normal_layer(image.names)));
-    image::Image const kept = sum_of(a, image, expanded(a.keep, image.names));
+    image::Image const kept = sum_of(a, image, kept_layers(a, image));
     post::DenoiseInput const input{&color, albedo.pixels.empty() ? nullptr : &albedo,
                                    normal.pixels.empty() ? nullptr : &normal,
                                    kept.pixels.empty() ? nullptr : &kept};
@@ -178,9 +186,9 @@ int run(DenoiseArguments& a) {
     if (lacks_weights)
         fmt::print(stderr, "warning: the network's weights for high quality are not there; this is "
                            "balanced quality: tools/setup denoise downloads them\n");
-    fmt::print(stderr, "denoised by {}{}{} in {}\n", post::backend_name(backend),
+    fmt::print(stderr, "denoised by {}{}{}{} in {}\n", post::backend_name(backend),
                input.albedo ? ", with albedo" : "", input.normal ? ", with normals" : "",
-               duration_text(seconds.count()));
+               input.kept ? ", without light in view" : "", duration_text(seconds.count()));
     return kDone;
 }
 
@@ -191,7 +199,7 @@ void add_denoise_command(CLI::App& app, Command& chosen) {
     CLI::App* c = app.add_subcommand("denoise", "Take the noise out of a rendered picture");
     c->add_option("picture", a->input,
                   "The picture; layers of an EXR that are called as albedo and normals usually are "
-                  "guide the denoiser")
+                  "guide the denoiser, and denoise_kept stays as it is")
         ->required()
         ->type_name("IN");
     c->add_option("-o,--output", a->output,
@@ -209,8 +217,8 @@ void add_denoise_command(CLI::App& app, Command& chosen) {
         ->type_name("LAYER,...")
         ->delimiter(',');
     c->add_option("--keep", a->keep,
-                  "Layers with light that stays as it is, as emission,background: lamps in view "
-                  "and the sky keep their edges, and what noise they have")
+                  "Layers with light that stays as it is, as emission,background, or none; without "
+                  "it denoise_kept, where that is there: lamps and sky in focus")
         ->type_name("LAYER,...")
         ->delimiter(',');
     c->add_option("--backend", a->backend, "What denoises; `weft help denoising` says more")
