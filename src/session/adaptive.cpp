@@ -22,16 +22,23 @@ struct Squares {
     bool made_by_few() const { return sum * sum < kFew * pixels * of_squares; }
 };
 
-Squares squares_of(film::Film const& film, film::Region const& block, double darkest) {
+/// What the error of a pixel is divided by. Both are brightness.
+double error_unit(double pixel, double typical) {
+    double const b = std::max(pixel, kDarkest * typical);
+    return std::max(b, std::sqrt(b * typical));
+}
+
+Squares squares_of(film::Film const& film, film::Region const& block, double typical) {
     Squares squares;
     squares.pixels = double(block.pixels());
     for_pixels(block, [&](int x, int y) {
         film::Film::Counts const n = film.counts(x, y);
         if (n.even == 0 || n.even == n.all) return;
-        Color const half = (film.even_mean(x, y) - film.odd_mean(x, y)) * 0.5f;
-        double const base = std::max(brightness(film.mean(x, y)), darkest);
+        Color const even = film.even_mean(x, y), odd = film.odd_mean(x, y),
+                    half = (even - odd) * 0.5f;
         double const absolute = brightness(half * half);
-        double const square = absolute > 0 ? absolute / (base * base) : 0;
+        double const unit = error_unit(std::min(brightness(even), brightness(odd)), typical);
+        double const square = absolute > 0 ? absolute / (unit * unit) : 0;
         squares.sum += square;
         squares.of_squares += square * square;
     });
@@ -75,14 +82,14 @@ double typical_brightness(film::Film const& film, std::function<bool()> const& s
 }
 
 std::vector<float> block_errors(film::Film const& film, std::function<bool()> const& stop) {
-    double const darkest = kDarkest * typical_brightness(film, stop);
+    double const typical = typical_brightness(film, stop);
     BlockGrid const grid(film.region());
     std::vector<float> errors(grid.size());
     std::vector<Squares> blocks;
     auto const stops_at = [&](size_t i) { return i % size_t(grid.columns) == 0 && stop(); };
     for (size_t i = 0; i < errors.size(); ++i) {
         if (stops_at(i)) return {};
-        blocks.push_back(squares_of(film, grid.block(i), darkest));
+        blocks.push_back(squares_of(film, grid.block(i), typical));
     }
     for (size_t i = 0; i < errors.size(); ++i) {
         if (stops_at(i)) return {};

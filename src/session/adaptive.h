@@ -3,12 +3,20 @@
 //
 // A pixel's error is estimated from the two halves of its samples, even and odd: the square of
 // half their difference has the variance of the mean as its expectation (where strata run through
-// both halves, less is true, and the estimate is on the safe side). It is taken relative to the
-// pixel's own brightness, so that dark parts of a picture get as true as bright ones; what is below
-// a hundredth of the picture's typical brightness counts as if it were that bright. A block's error
-// is the root of the mean square of its pixels: a single pixel that a rare path found keeps its
-// whole block alive, which the mean of the errors (Dammertz et al. 2010, "A hierarchical automatic
-// stopping condition for Monte Carlo global illumination") would smooth away.
+// both halves, less is true, and the estimate is on the safe side). It is relative: divided by the
+// pixel's brightness b where that is above the picture's typical brightness t, and by sqrt(b t)
+// where it is below. That is how a screen shows it, whose values go with about the square root of
+// light: the same error is as easily seen in all that is darker than t. What is below a hundredth
+// of t counts as if it had that, as sRGB is straight below 0.003 (t is to be shown as 0.18). Cycles
+// divides by sqrt(b) everywhere, of light as it is. By b alone, pixels that are nearly black, such
+// as those that the filter's tail reaches over an edge, would take up to a hundred times the
+// samples for what nobody sees. b is that of the darker half: what a bright sample adds to the
+// other is error, and would hide itself if it counted as brightness.
+//
+// A block's error is the root of the mean square of its pixels: a single pixel that a rare path
+// found keeps its whole block alive, which the mean of the errors (Dammertz et al. 2010, "A
+// hierarchical automatic stopping condition for Monte Carlo global illumination") would smooth
+// away.
 //
 // Where light comes by rare paths, most blocks have found none of it yet and look calm. What the
 // blocks around them have found says how often such paths are: the errors of blocks that few of
