@@ -8,6 +8,12 @@ find_package(fmt REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 
+find_path(LCMS2_INCLUDE lcms2.h REQUIRED)
+find_library(LCMS2_LIBRARY lcms2 REQUIRED)
+add_library(weft_lcms2 INTERFACE)
+target_include_directories(weft_lcms2 SYSTEM INTERFACE ${LCMS2_INCLUDE})
+target_link_libraries(weft_lcms2 INTERFACE ${LCMS2_LIBRARY})
+
 # oneDNN's own CMake files insist on OpenCL's headers, which we have no use for.
 find_path(DNNL_INCLUDE dnnl.hpp REQUIRED)
 find_library(DNNL_LIBRARY dnnl REQUIRED)

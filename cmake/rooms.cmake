@@ -34,7 +34,7 @@ function(weft_compile_together target)
 endfunction()
 
 set(weft_libraries_base Imath::Imath Threads::Threads)
-set(weft_libraries_image OpenImageIO::OpenImageIO)
+set(weft_libraries_image OpenImageIO::OpenImageIO weft_lcms2)
 set(weft_libraries_io pugixml::pugixml nlohmann_json::nlohmann_json fmt::fmt)
 set(weft_libraries_schema nlohmann_json::nlohmann_json fmt::fmt)
 set(weft_libraries_world weft_embree TBB::tbb)

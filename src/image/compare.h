@@ -1,8 +1,10 @@
 // How far an image is from a reference.
 //
-// Over all pixels and the colour channels alone: the first three where there are three or more,
-// the first where there are one or two (grey, grey and alpha). With a the image and b the
-// reference, in double precision; a value that is not finite in either is counted and left out.
+// Over all pixels. Colours come first: the channels R, G and B, else the first three where there
+// are three or more, the first where there are one or two (grey, grey and alpha). All other
+// channels are compared one by one, by their names. With a the image and b the reference, in double
+// precision; a value that is not finite in either is counted and left out, unless both are the
+// same.
 #pragma once
 
 #include "image/image.h"
@@ -18,8 +20,20 @@ struct Difference {
     size_t non_finite = 0; ///< values that are not finite in either image
 };
 
-/// Throws InputError where the sizes or the numbers of colour channels differ.
+/// Of the colours. Throws InputError where the sizes or the numbers of colour channels differ.
 Difference compare(Image const& image, Image const& reference);
+
+/// Of a channel that both have, or of one that only one has.
+struct ChannelDifference {
+    std::string name;
+    bool in_image = true, in_reference = true;
+    Difference difference; ///< where both have it
+};
+
+/// Of all channels that `compare` leaves out, in the order of the reference and then of the image.
+/// With `colors`, of all channels. Throws InputError where the sizes differ.
+std::vector<ChannelDifference> compare_channels(Image const& image, Image const& reference,
+                                                bool colors = false);
 
 /// a - b in each colour channel, signed. Throws like `compare`.
 Image difference_image(Image const& image, Image const& reference);

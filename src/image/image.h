@@ -1,7 +1,8 @@
 // Images as floats, and the files they come from and go to (through OpenImageIO).
 //
-// Left out on purpose: several parts or levels of one file (the first is read), deep images
-// (refused), and the placement of a data window inside its display window.
+// Left out on purpose: several parts of one file as one image (they are read one by one), levels
+// (the first is read), deep images (refused), and the placement of a data window inside its display
+// window.
 #pragma once
 
 #include "base/error.h"
@@ -21,7 +22,10 @@ struct Image {
     /// file says that they are linear. Such colours want `srgb_to_linear` before use as light or
     /// reflectance; data such as normals or roughness is to be used as it is.
     bool is_srgb_encoded = false;
-    std::vector<std::string> names; ///< empty, or one per channel: "R", "albedo.R", "Z"
+    /// Colours are not those of the file, which had another exposure or other primaries.
+    bool is_converted = false;
+    std::vector<std::string> warnings; ///< of what the file says and we do not follow
+    std::vector<std::string> names;    ///< empty, or one per channel: "R", "albedo.R", "Z"
 
     float& at(int x, int y, int c) { return pixels[index(x, y, c)]; }
     float at(int x, int y, int c) const { return pixels[index(x, y, c)]; }
@@ -42,11 +46,16 @@ class IoError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// The numbers as the file holds them (integers scaled to [0, 1]; no colour conversion; colours
-/// not premultiplied by alpha where the format does not, as PNG): EXR, HDR, PNG, JPEG, TIFF and
-/// what else OpenImageIO knows. Throws InputError for a file that is missing, damaged, truncated,
-/// deep, or larger than 16 GiB as floats.
-Image read_image(std::string const& path);
+/// The numbers as the file holds them (integers scaled to [0, 1]; colours not premultiplied by
+/// alpha where the format does not, as PNG): EXR, HDR, PNG, JPEG, TIFF and what else OpenImageIO
+/// knows. Rows and columns are turned as the file says. Where it says that its colours are neither
+/// Rec. 709 nor meant for a screen (color_words.h), they become linear Rec. 709. Throws InputError
+/// for a file that is missing, damaged, truncated, deep, or larger than 16 GiB as floats.
+Image read_image(std::string const& path, int part = 0);
+
+/// The names of a file's parts, "" where one has none. A file that is no EXR of several parts has
+/// one. Throws like `read_image`.
+std::vector<std::string> part_names(std::string const& path);
 
 /// The strings in a file's header, those included that its writer added by itself. Throws like
 /// `read_image`.

@@ -55,6 +55,8 @@ OIIO::ImageSpec reading_options() {
     throw InputError({name}, "expected an image, found none that can be decoded: " + reason);
 }
 
+} // namespace
+
 void check_flat(OIIO::ImageSpec const& spec, std::string const& name) {
     if (spec.deep) throw InputError({name}, "expected a flat image, found a deep one");
     if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1)
@@ -70,8 +72,6 @@ void check_flat(OIIO::ImageSpec const& spec, std::string const& name) {
                                      std::to_string(spec.height) + " pixels of " +
                                      std::to_string(spec.nchannels) + " channels");
 }
-
-} // namespace
 
 std::unique_ptr<OIIO::ImageInput> open_image(std::string const& path) {
     // Told apart here because OpenImageIO's own message differs by format.

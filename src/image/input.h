@@ -24,6 +24,9 @@ std::unique_ptr<OIIO::ImageInput> open_flat_image(std::string const& path);
 std::unique_ptr<OIIO::ImageInput> open_flat_image(OIIO::Filesystem::IOMemReader& memory,
                                                   std::string const& name);
 
+/// Throws InputError for a deep image, one of several slices, or one larger than 16 GiB as floats.
+void check_flat(OIIO::ImageSpec const& spec, std::string const& name);
+
 /// To be called after each read, with whether it succeeded. Throws InputError where it did not.
 void check_read(OIIO::ImageInput& input, std::string const& path, bool succeeded);
 /// To be called after the last read: throws InputError where the file lacks its end and the

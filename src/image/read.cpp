@@ -1,26 +1,108 @@
 #include "image/image.h"
 
-#include "image/input.h"
-#include "image/texture.h"
+#include <algorithm>
+
+#include "image/shown_picture.h"
 
 namespace weft::image {
 
 Image make_image(int width, int height, int channels) {
-    Image image{width, height, channels, {}, false, {}};
+    Image image{.width = width, .height = height, .channels = channels, .pixels = {}};
     image.pixels.resize(size_t(width) * size_t(height) * size_t(channels));
     return image;
 }
 
-Image read_image(std::string const& path) {
+namespace {
+
+/// Returns where a colour's three channels are, one after the other; -1: there is no colour.
+int first_of_color(std::vector<std::string> const& names) {
+    for (size_t i = 0; i + 3 <= names.size(); ++i)
+        if (names[i] == "R" && names[i + 1] == "G" && names[i + 2] == "B") return int(i);
+    return -1;
+}
+
+/// Turns the colours of an image into linear Rec. 709.
+void convert_colors(Image& image, ColorWords const& words, bool integers) {
+    int const first = first_of_color(image.names);
+    if (first < 0) return;
+    bool const has_alpha =
+        integers && size_t(first) + 3 < image.names.size() && image.names[size_t(first) + 3] == "A";
+    for (size_t i = 0; i < image.pixels.size(); i += size_t(image.channels)) {
+        std::span<float> const rgb(&image.pixels[i + size_t(first)], 3);
+        if (integers)
+            for (float& x : rgb) x = decoded(words.transfer, x);
+        words.convert(rgb);
+        if (has_alpha) // as light is stored
+            for (float& x : rgb) x *= image.pixels[i + size_t(first) + 3];
+    }
+    image.is_srgb_encoded = false;
+    image.is_converted = true;
+}
+
+Image turned(Image const& image, int orientation) {
+    bool const across = orientation > 4;
+    Image result = make_image(across ? image.height : image.width,
+                              across ? image.width : image.height, image.channels);
+    result.is_srgb_encoded = image.is_srgb_encoded;
+    result.is_converted = image.is_converted;
+    result.names = image.names;
+    result.warnings = image.warnings;
+    for (int y = 0; y < result.height; ++y)
+        for (int x = 0; x < result.width; ++x) {
+            Vec2i const p = stored_place(orientation, x, y, image.width, image.height);
+            std::copy_n(&image.pixels[image.index(p.x, p.y, 0)], image.channels,
+                        &result.pixels[result.index(x, y, 0)]);
+        }
+    return result;
+}
+
+Image read_hdr(std::string const& path) {
+    ShownPicture file(path, {Transfer::linear});
+    Image image = make_image(file.width(), file.height(), 3);
+    image.names = {"R", "G", "B"};
+    image.warnings = file.warnings();
+    image.is_converted = !file.is_as_stored();
+    file.read_to(image.height, reinterpret_cast<std::byte*>(image.pixels.data()));
+    return image;
+}
+
+} // namespace
+
+std::vector<std::string> part_names(std::string const& path) {
+    if (HdrFile::has_signature(path)) return {""};
     auto const input = open_flat_image(path);
-    OIIO::ImageSpec const& spec = input->spec();
+    std::vector<std::string> names{
+        std::string(input->spec().get_string_attribute("oiio:subimagename"))};
+    if (std::string_view(input->format_name()) != "openexr") return names;
+    for (int part = 1; input->seek_subimage(part, 0); ++part)
+        names.emplace_back(input->spec(part, 0).get_string_attribute("oiio:subimagename"));
+    (void)input->geterror(); // of the part after the last
+    return names;
+}
+
+Image read_image(std::string const& path, int part) {
+    if (HdrFile::has_signature(path)) return read_hdr(path);
+    auto const input = open_flat_image(path);
+    if (part > 0 && !input->seek_subimage(part, 0))
+        throw InputError({path}, "expected a part " + std::to_string(part) + ", found none");
+    OIIO::ImageSpec const spec = input->spec(part, 0);
+    check_flat(spec, path);
     Image image = make_image(spec.width, spec.height, spec.nchannels);
     image.is_srgb_encoded = is_srgb_encoded(spec);
     image.names = spec.channelnames;
     check_read(
         *input, path,
-        input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.pixels.data()));
+        input->read_image(part, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.pixels.data()));
     check_end(*input, path);
+    ColorWords const words = color_words(spec, png_head(path), {Transfer::srgb});
+    image.warnings = words.warnings;
+    auto const type = spec.format.basetype;
+    bool const integers = type == OIIO::TypeDesc::UINT8 || type == OIIO::TypeDesc::UINT16;
+    if (words.convert) convert_colors(image, words, integers);
+    // Numbers that a PNG says are linear, as OpenImageIO has understood, too.
+    if (integers && words.transfer == Transfer::linear) image.is_srgb_encoded = false;
+    if (int const o = spec.get_int_attribute("Orientation", 1); o > 1 && o <= 8)
+        return turned(image, o);
     return image;
 }
 
@@ -32,25 +114,16 @@ Texture opaque_texture() {
 
 } // namespace
 
-Texture read_texture(ImageSource const& source, Transfer transfer, Channels channels) {
-    std::string_view const bytes = source.bytes.value_or("");
-    OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
-    auto const input =
-        source.bytes ? open_flat_image(memory, source.path) : open_flat_image(source.path);
-    OIIO::ImageSpec const& spec = input->spec();
-    bool const alpha = channels == Channels::alpha;
-    if (alpha && spec.alpha_channel < 0) return opaque_texture();
-    TexelFormat const format = texel_format(spec, transfer, channels);
-    int const first = alpha ? spec.alpha_channel : 0;
-    std::vector<std::byte> texels(size_t(spec.width) * size_t(spec.height) * format.bytes());
-    check_read(*input, source.path,
-               input->read_image(0, 0, first, first + format.channels, oiio_type(format.type),
-                                 texels.data()));
-    if (source.bytes)
-        check_end(*input, memory, source.path);
-    else
-        check_end(*input, source.path);
-    return Texture::in_memory(format, spec.width, spec.height, std::move(texels));
+Texture read_texture(ImageSource const& source, Encoding encoding, Channels channels,
+                     std::vector<std::string>* warnings) {
+    ShownPicture file(source, encoding, channels);
+    if (!file.has_channels()) return opaque_texture();
+    if (warnings)
+        for (std::string const& w : file.warnings()) warnings->push_back(source.path + ": " + w);
+    std::vector<std::byte> texels(size_t(file.width()) * size_t(file.height()) *
+                                  file.format().bytes());
+    file.read_to(file.height(), texels.data());
+    return Texture::in_memory(file.format(), file.width(), file.height(), std::move(texels));
 }
 
 Metadata read_metadata(std::string const& path) {

@@ -26,6 +26,7 @@ void rewrite_exr(std::string const& path, std::string const& original, Image con
     OIIO::ImageSpec spec = input->spec();
     assert(spec.width == image.width && spec.height == image.height &&
            spec.nchannels == image.channels);
+    if (image.is_converted) spec.erase_attribute("chromaticities");
     for (auto const& [name, value] : more) spec.attribute(name, value);
     write_file(path, "", [&](OIIO::ImageOutput& output, std::string const& name) {
         return output.open(name, spec) &&

@@ -60,6 +60,13 @@ class Texture {
     std::shared_ptr<TiledFile const> tiles_;
 };
 
+/// How the user of a file reads its colours.
+struct Encoding {
+    Transfer transfer = Transfer::gamma22; ///< of integers
+    bool stated = false;                   ///< what the file says of its colours does not count
+    friend auto operator<=>(Encoding const&, Encoding const&) = default;
+};
+
 /// An image file: the one at `path` or, where there are `bytes`, a PNG or JPEG file in memory,
 /// which `path` only names.
 struct ImageSource {
@@ -70,10 +77,11 @@ struct ImageSource {
     std::optional<std::string_view> bytes;
 };
 
-/// The whole of an image file's first level, in memory. `transfer` is how integers encode colours,
-/// unless the file says that they are linear. The alpha of a file that has none is one texel of 1.
-/// Throws like `read_image`.
-Texture read_texture(ImageSource const& source, Transfer transfer,
-                     Channels channels = Channels::color);
+/// The whole picture in an image file (shown_picture.h), in memory. The alpha of a file that has
+/// none is one texel of 1. Adds to `warnings` what the file says and we do not follow. Throws like
+/// `read_image`.
+Texture read_texture(ImageSource const& source, Encoding encoding,
+                     Channels channels = Channels::color,
+                     std::vector<std::string>* warnings = nullptr);
 
 } // namespace weft::image

@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "image/image.h"
-#include "image/input.h"
+#include "image/shown_picture.h"
 #include "image/texture_file.h"
 #include "image/tile_cache.h"
 
@@ -19,28 +19,28 @@ namespace fs = std::filesystem;
 namespace {
 
 /// To be counted up when converted files change, so that old ones are not taken for new.
-constexpr char kFormatVersion[] = "1";
+constexpr char kFormatVersion[] = "2";
 
 struct FileFacts {
     TexelFormat format;
     uint64_t texels = 0;
-    bool has_tiles = false; ///< and mip levels
+    bool has_tiles = false; ///< and mip levels, that a cache of tiles may read
+    std::vector<std::string> warnings;
 };
 
-FileFacts facts_of(std::string const& path, Transfer transfer) {
-    auto const input = open_flat_image(path);
-    OIIO::ImageSpec const& spec = input->spec();
-    FileFacts facts{texel_format(spec, transfer), spec.image_pixels(), spec.tile_width > 0};
-    facts.has_tiles = facts.has_tiles && input->seek_subimage(0, 1);
-    return facts;
+FileFacts facts_of(std::string const& path, Encoding encoding) {
+    ShownPicture const file(path, encoding);
+    return {file.format(), uint64_t(file.width()) * uint64_t(file.height()),
+            file.is_as_stored() && file.is_in_tiles(), file.warnings()};
 }
 
 /// The name that a file's conversion has in the folder.
-std::string converted_name(std::string const& path, Transfer transfer) {
+std::string converted_name(std::string const& path, Encoding encoding) {
     fs::path const whole = fs::canonical(path);
     std::string const key = whole.string() + '\n' + std::to_string(fs::file_size(whole)) + '\n' +
                             std::to_string(fs::last_write_time(whole).time_since_epoch().count()) +
-                            '\n' + std::to_string(int(transfer)) + '\n' + kFormatVersion;
+                            '\n' + std::to_string(int(encoding.transfer)) +
+                            (encoding.stated ? " stated\n" : "\n") + kFormatVersion;
     char digits[17];
     std::snprintf(digits, sizeof digits, "%016llx",
                   static_cast<unsigned long long>(hash64(hash_bytes(key))));
@@ -71,13 +71,13 @@ uint64_t TextureCache::tile_limit() const {
 
 void TextureCache::share_memory() { tiles_->limit(tile_limit()); }
 
-std::shared_ptr<Texture const> TextureCache::load(ImageSource const& source, Transfer transfer,
+std::shared_ptr<Texture const> TextureCache::load(ImageSource const& source, Encoding encoding,
                                                   bool mip_levels, Channels channels) {
-    Key const key(source.path, transfer, channels);
+    Key const key(source.path, encoding, channels);
     auto& texture = textures_[key];
     try {
         if (!texture) {
-            texture = std::make_shared<Texture>(read(source, transfer, channels));
+            texture = std::make_shared<Texture>(read(source, encoding, channels));
             if (!source.bytes) texture->source = std::make_shared<SourceFile const>(source.path);
         }
     } catch (...) {
@@ -93,24 +93,32 @@ std::shared_ptr<Texture const> TextureCache::load(ImageSource const& source, Tra
     return texture;
 }
 
-Texture TextureCache::read(ImageSource const& source, Transfer transfer, Channels channels) {
-    if (source.bytes || channels == Channels::alpha) return read_whole(source, transfer, channels);
+Texture TextureCache::read(ImageSource const& source, Encoding encoding, Channels channels) {
+    if (source.bytes || channels == Channels::alpha) return read_whole(source, encoding, channels);
     std::string const& path = source.path;
-    FileFacts const facts = facts_of(path, transfer);
-    if (facts.has_tiles) return in_tiles(path, transfer);
+    FileFacts const facts = facts_of(path, encoding);
+    auto const warn = [&] {
+        for (std::string const& w : facts.warnings) warnings_.push_back(path + ": " + w);
+    };
+    if (facts.has_tiles) {
+        warn();
+        return in_tiles(path, facts.format.transfer);
+    }
     uint64_t const bytes = facts.texels * facts.format.bytes();
     // Mip levels take another third.
     bool const fits = memory_bytes_ + bytes + bytes / 3 <= options_.memory / 2;
     if (facts.texels > options_.small_texels || !fits) {
-        // Integers that the file says are linear, the converted file does not tell from others.
-        std::string const tiled = converted(path, facts.texels, facts.format.transfer);
-        if (!tiled.empty()) return in_tiles(tiled, facts.format.transfer);
+        std::string const tiled = converted(path, facts.texels, encoding);
+        if (!tiled.empty()) {
+            warn();
+            return in_tiles(tiled, facts.format.transfer);
+        }
     }
-    return read_whole(source, transfer, channels);
+    return read_whole(source, encoding, channels);
 }
 
-Texture TextureCache::read_whole(ImageSource const& source, Transfer transfer, Channels channels) {
-    Texture texture = read_texture(source, transfer, channels);
+Texture TextureCache::read_whole(ImageSource const& source, Encoding encoding, Channels channels) {
+    Texture texture = read_texture(source, encoding, channels, &warnings_);
     memory_bytes_ += texture.memory_bytes();
     share_memory();
     return texture;
@@ -122,7 +130,7 @@ Texture TextureCache::in_tiles(std::string const& path, Transfer transfer) {
 }
 
 /// The path of the converted file; "" where the folder cannot be written.
-std::string TextureCache::converted(std::string const& path, uint64_t texels, Transfer transfer) {
+std::string TextureCache::converted(std::string const& path, uint64_t texels, Encoding encoding) {
     auto warn = [&](std::string const& reason) {
         warnings_.push_back(path +
                             ": read whole, whatever --texture-memory says: its conversion "
@@ -131,10 +139,10 @@ std::string TextureCache::converted(std::string const& path, uint64_t texels, Tr
         return "";
     };
     if (options_.folder.empty()) return warn("neither XDG_CACHE_HOME nor HOME is set");
-    std::string const tiled = (fs::path(options_.folder) / converted_name(path, transfer)).string();
+    std::string const tiled = (fs::path(options_.folder) / converted_name(path, encoding)).string();
     if (fs::exists(tiled)) {
         try {
-            if (facts_of(tiled, transfer).texels == texels) return tiled;
+            if (facts_of(tiled, {Transfer::linear, true}).texels == texels) return tiled;
         } catch (InputError const&) {
             // Damaged; it is made anew.
         }
@@ -142,7 +150,7 @@ std::string TextureCache::converted(std::string const& path, uint64_t texels, Tr
     try {
         std::error_code ignored; // the file tells better
         fs::create_directories(options_.folder, ignored);
-        make_texture_file(path, tiled, transfer, [&](double fraction) {
+        make_texture_file(path, tiled, encoding, [&](double fraction) {
             if (options_.on_conversion) options_.on_conversion(path, fraction);
         });
     } catch (IoError const& e) {

@@ -49,7 +49,7 @@ class TextureCache {
     /// The texture in a file, with mip levels where asked for; loaded once per path and encoding.
     /// Not to be called by several threads at once, nor while a render reads the textures. Throws
     /// InputError like `read_image`.
-    std::shared_ptr<Texture const> load(ImageSource const& source, Transfer transfer,
+    std::shared_ptr<Texture const> load(ImageSource const& source, Encoding encoding,
                                         bool mip_levels, Channels channels = Channels::color);
 
     /// What the user ought to know, since the last call.
@@ -59,11 +59,11 @@ class TextureCache {
     TextureStatistics statistics() const;
 
   private:
-    using Key = std::tuple<std::string, Transfer, Channels>;
+    using Key = std::tuple<std::string, Encoding, Channels>;
 
-    Texture read(ImageSource const& source, Transfer transfer, Channels channels);
-    Texture read_whole(ImageSource const& source, Transfer transfer, Channels channels);
-    std::string converted(std::string const& path, uint64_t texels, Transfer transfer);
+    Texture read(ImageSource const& source, Encoding encoding, Channels channels);
+    Texture read_whole(ImageSource const& source, Encoding encoding, Channels channels);
+    std::string converted(std::string const& path, uint64_t texels, Encoding encoding);
     Texture in_tiles(std::string const& path, Transfer transfer);
     uint64_t tile_limit() const;
     void share_memory();

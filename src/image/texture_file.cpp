@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "image/input.h"
 #include "image/mip_levels.h"
 #include "image/output_file.h"
+#include "image/shown_picture.h"
 
 namespace weft::image {
 
@@ -28,13 +28,12 @@ OIIO::ImageSpec tile_spec(TexelFormat format, int width, int height) {
 /// Rows of an image, read as they are asked for, strip by strip.
 class RowSource {
   public:
-    RowSource(std::string const& path, Transfer transfer)
-        : path_(path), input_(open_flat_image(path)),
-          format_(texel_format(input_->spec(), transfer)),
-          row_bytes_(size_t(input_->spec().width) * format_.bytes()) {}
+    RowSource(std::string const& path, Encoding encoding)
+        : file_(path, encoding), row_bytes_(size_t(file_.width()) * file_.format().bytes()) {}
 
-    OIIO::ImageSpec const& spec() const { return input_->spec(); }
-    TexelFormat format() const { return format_; }
+    int width() const { return file_.width(); }
+    int height() const { return file_.height(); }
+    TexelFormat format() const { return file_.format(); }
     size_t row_bytes() const { return row_bytes_; }
 
     /// Reads all rows up to `end`, and forgets those before `keep`.
@@ -42,29 +41,17 @@ class RowSource {
         rows_.erase(rows_.begin(), rows_.begin() + ptrdiff_t(size_t(keep - first_) * row_bytes_));
         first_ = keep;
         while (end_ < end) {
-            int const strip =
-                std::min(spec().tile_height > 0 ? spec().tile_height : kTile, spec().height - end_);
+            int const strip = std::min(file_.strip(), height() - end_);
             size_t const old = rows_.size();
             rows_.resize(old + size_t(strip) * row_bytes_);
-            int const y = spec().y + end_, x = spec().x;
-            auto const type = oiio_type(format_.type);
-            bool const read =
-                spec().tile_width > 0
-                    ? input_->read_tiles(0, 0, x, x + spec().width, y, y + strip, spec().z,
-                                         spec().z + 1, 0, format_.channels, type, &rows_[old])
-                    : input_->read_scanlines(0, 0, y, y + strip, spec().z, 0, format_.channels,
-                                             type, &rows_[old]);
-            check_read(*input_, path_, read);
+            file_.read_to(end_ + strip, &rows_[old]);
             end_ += strip;
-            if (end_ == spec().height) check_end(*input_, path_);
         }
     }
     std::byte const* row(int y) const { return rows_.data() + size_t(y - first_) * row_bytes_; }
 
   private:
-    std::string path_;
-    std::unique_ptr<OIIO::ImageInput> input_;
-    TexelFormat format_;
+    ShownPicture file_;
     size_t row_bytes_;
     std::vector<std::byte> rows_; ///< [first_, end_)
     int first_ = 0, end_ = 0;
@@ -93,7 +80,7 @@ Level make_level(LevelReducer const& reducer, TexelFormat format) {
 /// Writes level 0 strip by strip; the level after it is made on the way.
 bool write_first(RowSource& source, OIIO::ImageOutput& output, Level& smaller,
                  ConversionProgress const& progress) {
-    int const width = source.spec().width, height = source.spec().height;
+    int const width = source.width(), height = source.height();
     TexelFormat const format = source.format();
     LevelReducer const reducer(format, width, height);
     smaller = make_level(reducer, format);
@@ -127,12 +114,12 @@ bool write_level(OIIO::ImageOutput& output, std::string const& name, TexelFormat
 
 } // namespace
 
-void make_texture_file(std::string const& from, std::string const& to, Transfer transfer,
+void make_texture_file(std::string const& from, std::string const& to, Encoding encoding,
                        ConversionProgress const& progress) {
-    RowSource source(from, transfer);
+    RowSource source(from, encoding);
     TexelFormat const format = source.format();
     bool const integers = format.type == TexelType::u8 || format.type == TexelType::u16;
-    int const width = source.spec().width, height = source.spec().height;
+    int const width = source.width(), height = source.height();
     write_file(
         to, integers ? "tiff" : "openexr",
         [&](OIIO::ImageOutput& output, std::string const& name) {

@@ -36,7 +36,7 @@ int32_t TextureReader::load(size_t index, Lookup const& lookup, bool mip_levels)
     } else {
         file_.report().fail(o.path(), "expected 'uri' or 'bufferView', found neither");
     }
-    auto const loaded = images_.load(from, lookup.transfer, mip_levels, lookup.channels);
+    auto const loaded = images_.load(from, {lookup.transfer, true}, mip_levels, lookup.channels);
     return index_of(scene_.images, loaded);
 }
 

@@ -126,7 +126,7 @@ int32_t SceneBuilder::add(scene::PostprocessKind, XmlElement const& e) {
 int32_t SceneBuilder::load_image(std::string const& path, scene::ColorSpace encoding,
                                  bool mip_levels, SourceLocation const& where) {
     return index_of(scene_.images, read_at(where, [&] {
-                        return document_.textures->load(path, scene::transfer_of(encoding),
+                        return document_.textures->load(path, scene::encoding_of(encoding),
                                                         mip_levels);
                     }));
 }

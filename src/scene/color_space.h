@@ -4,18 +4,19 @@
 #include <array>
 #include <string_view>
 
-#include "image/texel.h"
+#include "image/texture.h"
 
 namespace weft::scene {
 
-/// Names as in MaterialX.
-enum class ColorSpace { g22_rec709, srgb_texture, lin_rec709 };
+/// Names as in MaterialX. `automatic`: what the file says, else lightwave's g22_rec709.
+enum class ColorSpace { automatic, g22_rec709, srgb_texture, lin_rec709 };
 constexpr auto choices(ColorSpace) {
-    return std::array<std::string_view, 3>{"g22_rec709", "srgb_texture", "lin_rec709"};
+    return std::array<std::string_view, 4>{"auto", "g22_rec709", "srgb_texture", "lin_rec709"};
 }
 
 constexpr image::Transfer transfer_of(ColorSpace space) {
     switch (space) {
+    case ColorSpace::automatic:
     case ColorSpace::g22_rec709:
         return image::Transfer::gamma22;
     case ColorSpace::srgb_texture:
@@ -24,6 +25,10 @@ constexpr image::Transfer transfer_of(ColorSpace space) {
         break;
     }
     return image::Transfer::linear;
+}
+
+constexpr image::Encoding encoding_of(ColorSpace space) {
+    return {transfer_of(space), space != ColorSpace::automatic};
 }
 
 } // namespace weft::scene

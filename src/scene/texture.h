@@ -70,7 +70,7 @@ struct ImageTexture {
     TextureBorder border = TextureBorder::repeat;
     TextureFilter filter = TextureFilter::bilinear;
     bool linear = false;
-    ColorSpace color_space = ColorSpace::g22_rec709;
+    ColorSpace color_space = ColorSpace::automatic;
     Input<SurfaceUv> texcoord;
 
     template <class F>
@@ -89,8 +89,10 @@ struct ImageTexture {
                    "`bilinear`."});
         f("linear", linear, {.help = "The file holds data (roughness, normals), not colours."});
         f("colorSpace", color_space,
-          {.help = "How 8 and 16 bit files encode colours: a gamma of 2.2 as lightwave has it, "
-                   "sRGB's own curve, or not at all."});
+          {.help = "What the colours of the file are: what it says itself (chromaticities of EXR, "
+                   "gAMA, cHRM, cICP and ICC profiles, EXPOSURE of HDR; auto); else, and where it "
+                   "says sRGB, 8 and 16 bit files have a gamma of 2.2 as in lightwave. Anything "
+                   "else overrules the file: a gamma of 2.2, sRGB's own curve, or none."});
         f("texcoord", texcoord,
           {.help = "Where to look; unconnected: the surface's uv. A `place2d` node moves, turns "
                    "and repeats it."});

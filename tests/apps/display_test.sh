@@ -66,6 +66,25 @@ expect 0 "$weft" bloom plain.exr -o a.exr --strength 0.3 --fov 60
 expect 0 "$weft" compare a.exr out_folder/bloomed.exr --mae 0
 expect 0 "$weft" compare a.exr plain.exr --me 1e-4
 expect 1 "$weft" compare a.exr plain.exr --mae 0.001
+# What a command does not work on arrives as it was, and a comparison sees all of it.
+expect 0 "$weft" render plain.xml -o crop.exr --crop 4,2,20,14 --aov alpha,depth,crypto_object --progress none
+expect 0 "$weft" bloom crop.exr -o bloomed.exr --strength 0.3
+for what in "pixel data origin: x=4, y=2" "full/display size" "chromaticities" "cryptomatte/"; do
+    [ "$(iinfo -v crop.exr | grep -F "$what")" = "$(iinfo -v bloomed.exr | grep -F "$what")" ] ||
+        fail "a bloom changed '$what'"
+done
+expect 0 "$weft" compare bloomed.exr crop.exr
+has "the same: A, " out
+oiiotool plain.exr --ch R,G,B,A=1 -o alpha.exr
+expect 1 "$weft" compare plain.exr alpha.exr
+has "A: the picture lacks it" out
+oiiotool plain.exr --ch R,G,B,A=0.5 -o clear.exr && oiiotool plain.exr --ch R,G,B,A=1 -o opaque.exr
+expect 1 "$weft" compare clear.exr opaque.exr --mse 1e-6
+expect 0 "$weft" compare clear.exr opaque.exr --mse 1e-6 --channels RGB
+oiiotool plain.exr plain.exr --siappend -o parts.exr
+expect 2 "$weft" bloom parts.exr -o a.exr
+has "expected a file of one part, found 2" err
+expect 1 "$weft" compare plain.exr parts.exr
 expect 2 "$weft" bloom plain.exr -o a.exr --kind glare --sigma 3
 has "--sigma" err
 expect 2 "$weft" bloom plain.png -o a.exr

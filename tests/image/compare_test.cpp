@@ -78,4 +78,26 @@ TEST(Compare, DifferenceImageIsSigned) {
     EXPECT_EQ(d.pixels, (std::vector<float>{-1, 0, 2}));
 }
 
+TEST(Compare, AllOtherChannelsAreComparedByName) {
+    float const inf = std::numeric_limits<float>::infinity();
+    Image a = make(2, 6, {1, 2, 3, 1, 3, 0.5f, 1, 2, 3, 1, inf, 0.5f}),
+          b = make(2, 6, {7, 1, 2, 3, 0, 5, 7, 1, 2, 3, 0, inf});
+    a.names = {"R", "G", "B", "A", "Z", "noise"};
+    b.names = {"id", "R", "G", "B", "A", "Z"}; // colours need not come first
+    EXPECT_EQ(compare(a, b).max, 0);
+    auto const others = compare_channels(a, b);
+    ASSERT_EQ(others.size(), 4u);
+    EXPECT_EQ(others[0].name, "id");
+    EXPECT_FALSE(others[0].in_image);
+    EXPECT_EQ(others[1].name, "A");
+    EXPECT_EQ(others[1].difference.max, 1);
+    EXPECT_EQ(others[2].name, "Z");
+    EXPECT_EQ(others[2].difference.me, -2);
+    EXPECT_EQ(others[2].difference.non_finite, 0u); // both are infinitely far
+    EXPECT_EQ(others[3].name, "noise");
+    EXPECT_FALSE(others[3].in_reference);
+    EXPECT_EQ(compare_channels(a, b, true).size(), 7u);
+    EXPECT_THROW(compare_channels(a, make_image(3, 1, 4)), InputError);
+}
+
 } // namespace

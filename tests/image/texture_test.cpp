@@ -85,9 +85,9 @@ TEST_F(Textures, DecodeAsTheWholeImageWould) {
     write_noise("16.png", 37, 21, 3, TexelType::u16);
     for (char const* name : {"8.png", "16.png"}) {
         Image const floats = read_image(path(name));
-        Texture const gamma = read_texture(path(name), Transfer::gamma22),
-                      srgb = read_texture(path(name), Transfer::srgb),
-                      data = read_texture(path(name), Transfer::linear);
+        Texture const gamma = read_texture(path(name), {Transfer::gamma22}),
+                      srgb = read_texture(path(name), {Transfer::srgb}),
+                      data = read_texture(path(name), {Transfer::linear});
         for (int y = 0; y < 21; ++y)
             for (int x = 0; x < 37; ++x)
                 for (int c = 0; c < 3; ++c) {
@@ -103,7 +103,7 @@ TEST_F(Textures, DecodeAsTheWholeImageWould) {
 TEST_F(Textures, FloatsAreLinearAndGreyIsGrey) {
     write_noise("grey.exr", 9, 5, 1, TexelType::f32);
     Image const floats = read_image(path("grey.exr"));
-    Texture const texture = read_texture(path("grey.exr"), Transfer::gamma22);
+    Texture const texture = read_texture(path("grey.exr"), {Transfer::gamma22});
     for (int x = 0; x < 9; ++x)
         for (int c = 0; c < 3; ++c) EXPECT_EQ(texture.texel(0, x, 2)[c], floats.at(x, 2, 0));
 }
@@ -111,7 +111,7 @@ TEST_F(Textures, FloatsAreLinearAndGreyIsGrey) {
 TEST_F(Textures, LevelsKeepTheMeanOfLinearValues) {
     // Sizes that are no powers of two: every texel counts by its area.
     write_noise("odd.exr", 173, 59, 3, TexelType::f32);
-    Texture texture = read_texture(path("odd.exr"), Transfer::linear);
+    Texture texture = read_texture(path("odd.exr"), {Transfer::linear});
     texture.add_levels();
     EXPECT_EQ(texture.level_count(), 8);
     auto mean = [&](int level) {
@@ -127,7 +127,7 @@ TEST_F(Textures, LevelsKeepTheMeanOfLinearValues) {
     Image board = make_image(2, 2, 3);
     for (int c = 0; c < 3; ++c) board.at(0, 0, c) = board.at(1, 1, c) = 1;
     write_png(path("board.png"), board);
-    Texture coded = read_texture(path("board.png"), Transfer::srgb);
+    Texture coded = read_texture(path("board.png"), {Transfer::srgb});
     coded.add_levels();
     EXPECT_NEAR(coded.texel(1, 0, 0)[0], srgb_to_linear(188 / 255.f), 1e-5f); // the nearest code
 }
@@ -144,8 +144,8 @@ TEST_F(Textures, MemoryAndTilesGiveTheSameBits) {
         SCOPED_TRACE(c.name);
         write_noise(c.name, 301, 203, c.channels, c.type);
         TextureCache memory, tiles(tiles_only());
-        auto const a = memory.load(path(c.name), Transfer::gamma22, true),
-                   b = tiles.load(path(c.name), Transfer::gamma22, true);
+        auto const a = memory.load(path(c.name), {Transfer::gamma22}, true),
+                   b = tiles.load(path(c.name), {Transfer::gamma22}, true);
         EXPECT_TRUE(a->is_in_memory());
         EXPECT_FALSE(b->is_in_memory());
         EXPECT_EQ(differences(*a, *b), 0);
@@ -165,7 +165,7 @@ TEST_F(Textures, ConversionsAreMadeOnceAndAnewWhereTheFileChanged) {
         TextureCacheOptions options = tiles_only();
         options.on_conversion = [&](std::string const&, double f) { conversions += f == 1; };
         TextureCache cache(options);
-        return cache.load(path("a.png"), Transfer::gamma22, false)->width;
+        return cache.load(path("a.png"), {Transfer::gamma22}, false)->width;
     };
     EXPECT_EQ(load(), 100);
     EXPECT_EQ(load(), 100);
@@ -187,7 +187,7 @@ TEST_F(Textures, AnUnwritableFolderIsAWarning) {
     std::ofstream(path("file")) << "no folder";
     options.folder = path("file") + "/cache";
     TextureCache cache(options);
-    EXPECT_TRUE(cache.load(path("a.png"), Transfer::gamma22, false)->is_in_memory());
+    EXPECT_TRUE(cache.load(path("a.png"), {Transfer::gamma22}, false)->is_in_memory());
     auto const warnings = cache.take_warnings();
     ASSERT_EQ(warnings.size(), 1u);
     EXPECT_NE(warnings[0].find("texture cache folder"), std::string::npos) << warnings[0];
@@ -210,14 +210,14 @@ TEST_F(Textures, BadFilesHaveTheMessagesOfImages) {
         std::string const expected = message([&] { read_image(path(name)); });
         EXPECT_NE(expected, "none");
         TextureCache tiles(tiles_only());
-        EXPECT_EQ(message([&] { tiles.load(path(name), Transfer::srgb, false); }), expected);
-        EXPECT_EQ(message([&] { read_texture(path(name), Transfer::srgb); }), expected);
+        EXPECT_EQ(message([&] { tiles.load(path(name), {Transfer::srgb}, false); }), expected);
+        EXPECT_EQ(message([&] { read_texture(path(name), {Transfer::srgb}); }), expected);
     }
     // A texture file that lacks its end is found out before the render.
-    make_texture_file(path("whole.png"), path("whole.tx"), Transfer::srgb);
+    make_texture_file(path("whole.png"), path("whole.tx"), {Transfer::srgb});
     fs::resize_file(path("whole.tx"), fs::file_size(path("whole.tx")) * 3 / 4);
     TextureCache tiles(tiles_only());
-    EXPECT_NE(message([&] { tiles.load(path("whole.tx"), Transfer::srgb, false); }), "none");
+    EXPECT_NE(message([&] { tiles.load(path("whole.tx"), {Transfer::srgb}, false); }), "none");
 }
 
 TEST_F(Textures, FilesInMemoryAreThoseOnDisk) {
@@ -231,15 +231,15 @@ TEST_F(Textures, FilesInMemoryAreThoseOnDisk) {
     for (char const* name : {"a.png", "b.jpg"}) {
         std::string const bytes = bytes_of(name);
         auto const here =
-                       cache.load({std::string("bytes of ") + name, bytes}, Transfer::srgb, true),
-                   there = cache.load(path(name), Transfer::srgb, true);
+                       cache.load({std::string("bytes of ") + name, bytes}, {Transfer::srgb}, true),
+                   there = cache.load(path(name), {Transfer::srgb}, true);
         ASSERT_EQ(here->width, there->width);
         ASSERT_EQ(here->level_count(), there->level_count());
         EXPECT_EQ(std::memcmp(here->texels(0), there->texels(0), there->memory_bytes()), 0);
         for (size_t size : {size_t(0), size_t(3), bytes.size() / 2, bytes.size() - 13})
-            EXPECT_THROW(
-                cache.load({"cut", std::string_view(bytes).substr(0, size)}, Transfer::srgb, false),
-                InputError)
+            EXPECT_THROW(cache.load({"cut", std::string_view(bytes).substr(0, size)},
+                                    {Transfer::srgb}, false),
+                         InputError)
                 << name << " " << size;
     }
 }
@@ -248,21 +248,21 @@ TEST_F(Textures, AlphaIsATextureOfItsOwn) {
     write_noise("rgba.png", 20, 10, 4, TexelType::u8);
     write_noise("rgb.png", 20, 10, 3, TexelType::u8);
     TextureCache cache;
-    auto const alpha = cache.load(path("rgba.png"), Transfer::srgb, false, Channels::alpha);
+    auto const alpha = cache.load(path("rgba.png"), {Transfer::srgb}, false, Channels::alpha);
     Image const image = read_image(path("rgba.png"));
     EXPECT_EQ(alpha->format().channels, 1);
     for (int y = 0; y < 10; ++y)
         for (int x = 0; x < 20; ++x) EXPECT_EQ(alpha->texel(0, x, y)[0], image.at(x, y, 3));
-    auto const none = cache.load(path("rgb.png"), Transfer::srgb, true, Channels::alpha);
+    auto const none = cache.load(path("rgb.png"), {Transfer::srgb}, true, Channels::alpha);
     EXPECT_EQ(none->texel(0, 0, 0)[0], 1);
-    EXPECT_EQ(cache.load(path("rgb.png"), Transfer::srgb, false)->format().channels, 3);
+    EXPECT_EQ(cache.load(path("rgb.png"), {Transfer::srgb}, false)->format().channels, 3);
 }
 
 TEST_F(Textures, StatisticsTellWhereTexelsLie) {
     write_noise("a.png", 100, 100, 3, TexelType::u8);
     TextureCache memory, tiles(tiles_only());
-    memory.load(path("a.png"), Transfer::gamma22, false);
-    tiles.load(path("a.png"), Transfer::gamma22, false);
+    memory.load(path("a.png"), {Transfer::gamma22}, false);
+    tiles.load(path("a.png"), {Transfer::gamma22}, false);
     EXPECT_EQ(memory.statistics().memory_bytes, 30000u);
     EXPECT_EQ(memory.statistics().in_memory, 1u);
     EXPECT_EQ(tiles.statistics().memory_bytes, 0u);

@@ -42,7 +42,7 @@ std::string write_map(TemporaryFolder const& folder, Map const& map, Kind kind) 
     image::write_exr(folder / "map.exr", picture, {},
                      half ? image::Precision::half : image::Precision::float32);
     if (kind != Kind::tiles) return "map.exr";
-    image::make_texture_file(folder / "map.exr", folder / "map.tx", image::Transfer::linear);
+    image::make_texture_file(folder / "map.exr", folder / "map.tx", {image::Transfer::linear});
     return "map.tx";
 }
 

@@ -4,6 +4,8 @@
 
 #include "apps/weft/commands.h"
 #include "apps/weft/display_options.h"
+#include "apps/weft/picture_file.h"
+#include "image/rewrite.h"
 #include "post/bloom.h"
 
 namespace weft::apps {
@@ -32,7 +34,8 @@ int run(BloomArguments const& a) {
     post::DisplayChain const chain = display_chain(a.display);
     print_warning(chain);
     for (std::string const& path : a.outputs) image::check_writable(path);
-    image::Image const light = image::read_image(a.picture);
+    refuse_parts(a.picture);
+    image::Image const light = read_picture(a.picture);
     if (light.is_srgb_encoded)
         throw InputError({a.picture},
                          "expected a picture of light (.exr, .hdr), found screen colours, in which "
@@ -45,7 +48,11 @@ int run(BloomArguments const& a) {
     how += (how.empty() ? "" : ", ") + std::string("bloom (") +
            schema::TextForm<scene::BloomKind>::write(bloom.kind) + ")";
     for (std::string const& path : a.outputs) {
-        post::write_picture(path, bloomed, chain, metadata);
+        // What the bloom does not touch stays as it was: other channels, windows, header.
+        if (image::is_exr(path) && image::is_exr(a.picture))
+            image::rewrite_exr(path, a.picture, bloomed, {{"weft:postprocess", how}});
+        else
+            post::write_picture(path, bloomed, chain, metadata);
         fmt::print("{}\n", path);
     }
     return kDone;

@@ -1,4 +1,5 @@
 // weft compare A [B...] REFERENCE: how far pictures are from a reference.
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <memory>
@@ -7,6 +8,7 @@
 #include "apps/weft/commands.h"
 #include "apps/weft/compare_report.h"
 #include "apps/weft/number_check.h"
+#include "apps/weft/picture_file.h"
 #include "base/color.h"
 #include "image/atomic_file.h"
 #include "image/compare.h"
@@ -19,6 +21,7 @@ namespace {
 
 struct CompareArguments {
     std::vector<std::string> pictures; ///< the last is the reference
+    std::vector<std::string> channels; ///< none: all
     std::string difference, report;
     double mae = -1, me = -1, mse = -1, rel_mse = -1, flip = -1;
 };
@@ -47,7 +50,8 @@ image::Image light_of(image::Image image) {
 }
 
 struct Comparison {
-    image::Difference difference;
+    image::Difference difference; ///< of the colours
+    std::vector<image::ChannelDifference> others;
     std::optional<image::Image> flip; ///< where it is asked for
 };
 
@@ -56,8 +60,32 @@ bool is_ldr(image::Image const& a, image::Image const& b) {
     return a.is_srgb_encoded && b.is_srgb_encoded;
 }
 
+/// Adds the parts of two files after the first, whose channels are called PART.CHANNEL.
+void compare_parts(std::string const& a, std::string const& b,
+                   std::vector<image::ChannelDifference>& to) {
+    std::vector<std::string> const parts_a = image::part_names(a), parts_b = image::part_names(b);
+    auto const name_of = [](std::vector<std::string> const& parts, size_t i) {
+        return i >= parts.size() || parts[i].empty() ? fmt::format("part {}", i + 1) : parts[i];
+    };
+    for (size_t i = 1; i < std::max(parts_a.size(), parts_b.size()); ++i) {
+        if (i >= parts_a.size()) {
+            to.push_back({name_of(parts_b, i), false, true, {}});
+        } else if (i >= parts_b.size()) {
+            to.push_back({name_of(parts_a, i), true, false, {}});
+        } else {
+            image::Image const of_a = image::read_image(a, int(i)),
+                               of_b = image::read_image(b, int(i));
+            for (auto& c : image::compare_channels(of_a, of_b, true)) {
+                c.name = name_of(parts_b, i) + "." + c.name;
+                to.push_back(std::move(c));
+            }
+        }
+    }
+}
+
+/// Compares the colours of two pictures, and all other channels.
 Comparison compare(image::Image const& a, image::Image const& b, bool with_flip) {
-    Comparison result{image::compare(a, b), {}};
+    Comparison result{image::compare(a, b), image::compare_channels(a, b), {}};
     if (!with_flip) return result;
     image::Image const test = light_of(a), reference = light_of(b);
     result.flip =
@@ -71,6 +99,30 @@ void print(Comparison const& c, bool ldr) {
                d.mse, d.rel_mse, d.mae, d.me, d.max);
     if (c.flip) fmt::print("FLIP    {:.6f} ({})\n", post::mean_error(*c.flip), ldr ? "LDR" : "HDR");
     if (d.non_finite) fmt::print("{} values are not finite\n", d.non_finite);
+    std::vector<std::string> equal;
+    for (auto const& [name, in_image, in_reference, other] : c.others) {
+        if (!in_image || !in_reference)
+            fmt::print("{}: {}\n", name,
+                       in_image ? "the reference lacks it" : "the picture lacks it");
+        else if (other.max == 0 && other.non_finite == 0)
+            equal.push_back(name);
+        else
+            fmt::print("{}: MSE {:.6e}, relMSE {:.6e}, MAE {:.6e}, ME {:+.6e}, largest {:.6e}{}\n",
+                       name, other.mse, other.rel_mse, other.mae, other.me, other.max,
+                       other.non_finite ? fmt::format(", {} values not finite", other.non_finite)
+                                        : "");
+    }
+    if (!equal.empty()) fmt::print("the same: {}\n", fmt::join(equal, ", "));
+}
+
+/// Keeps the channels that the user names: themselves, or all of a layer or part.
+void keep_wanted(std::vector<std::string> const& wanted, Comparison& c) {
+    if (wanted.empty()) return;
+    std::erase_if(c.others, [&](image::ChannelDifference const& d) {
+        return std::none_of(wanted.begin(), wanted.end(), [&](std::string const& name) {
+            return d.name == name || d.name.starts_with(name + ".");
+        });
+    });
 }
 
 void write_difference(CompareArguments const& args, image::Image const& a, image::Image const& b,
@@ -115,10 +167,15 @@ ReportPicture report_picture(std::string const& path, image::Image const& image,
 
 bool passes(CompareArguments const& args, Comparison const& c) {
     auto within = [](double value, double limit) { return limit < 0 || value <= limit; };
-    image::Difference const& d = c.difference;
-    return within(d.mae, args.mae) && within(std::abs(d.me), args.me) && within(d.mse, args.mse) &&
-           within(d.rel_mse, args.rel_mse) &&
-           (args.flip < 0 || within(post::mean_error(*c.flip), args.flip)) && d.non_finite == 0;
+    auto all_within = [&](image::Difference const& d) {
+        return within(d.mae, args.mae) && within(std::abs(d.me), args.me) &&
+               within(d.mse, args.mse) && within(d.rel_mse, args.rel_mse) && d.non_finite == 0;
+    };
+    return all_within(c.difference) &&
+           (args.flip < 0 || within(post::mean_error(*c.flip), args.flip)) &&
+           std::all_of(c.others.begin(), c.others.end(), [&](auto const& other) {
+               return other.in_image && other.in_reference && all_within(other.difference);
+           });
 }
 
 void check(CompareArguments const& args) {
@@ -145,6 +202,7 @@ int run(CompareArguments const& args) {
     bool passed = true;
     for (size_t i = 0; i + 1 < args.pictures.size(); ++i) {
         image::Image const picture = image::read_image(args.pictures[i]);
+        warn_of_words(args.pictures[i], picture);
         bool const ldr = is_ldr(picture, reference);
         if (picture.is_srgb_encoded != reference.is_srgb_encoded)
             fmt::print(stderr,
@@ -152,7 +210,9 @@ int run(CompareArguments const& args) {
                        "numbers are compared as they are\n",
                        args.pictures[i], args.pictures.back());
         if (args.pictures.size() > 2) fmt::print("{}{}\n", i ? "\n" : "", args.pictures[i]);
-        Comparison const c = compare(picture, reference, with_flip);
+        Comparison c = compare(picture, reference, with_flip);
+        compare_parts(args.pictures[i], args.pictures.back(), c.others);
+        keep_wanted(args.channels, c);
         print(c, ldr);
         passed = passes(args, c) && passed;
         if (!args.difference.empty()) write_difference(args, picture, reference, c.difference.max);
@@ -173,12 +233,17 @@ int run(CompareArguments const& args) {
 void add_compare_command(CLI::App& app, Command& chosen) {
     auto args = std::make_shared<CompareArguments>();
     CLI::App* c = app.add_subcommand(
-        "compare", "Compare pictures with a reference; fails (1) beyond the limits given, or where "
-                   "a value is not finite");
+        "compare", "Compare pictures with a reference: their colours, and one by one all other "
+                   "channels and parts; fails (1) beyond the limits given, where a value is not "
+                   "finite, and where one of them lacks a channel");
     c->add_option("pictures", args->pictures, "The pictures, and last the reference")
         ->required()
         ->expected(2, 64)
         ->type_name("A [B...] REFERENCE");
+    c->add_option("--channels", args->channels,
+                  "Beside the colours, compare only these channels, layers or parts; RGB is none")
+        ->delimiter(',')
+        ->type_name("NAMES");
     c->add_option("--diff", args->difference,
                   "Write the difference as a picture: signed numbers as .exr, red and blue as .png")
         ->type_name("OUT");

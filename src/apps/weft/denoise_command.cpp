@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "apps/weft/commands.h"
+#include "apps/weft/picture_file.h"
 #include "apps/weft/progress_line.h"
 #include "base/color.h"
 #include "image/rewrite.h"
@@ -32,7 +33,7 @@ std::string list(std::vector<std::string> const& names) {
 }
 
 image::Image read_linear(std::string const& path) {
-    image::Image image = image::read_image(path);
+    image::Image image = read_picture(path);
     if (image.is_srgb_encoded)
         for (float& x : image.pixels) x = srgb_to_linear(x);
     image.is_srgb_encoded = false;
@@ -148,6 +149,7 @@ int run(DenoiseArguments& a) {
     image::check_writable(a.output);
     schema::TextForm<post::Backend>::read(a.backend, a.options.backend);
     schema::TextForm<post::Quality>::read(a.quality, a.options.quality);
+    refuse_parts(a.input);
     image::Image image = read_linear(a.input);
     auto const colors = colors_of(a.input, image);
     image::Image const color = post::take_channels(image, colors);

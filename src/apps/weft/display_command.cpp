@@ -4,6 +4,7 @@
 
 #include "apps/weft/commands.h"
 #include "apps/weft/display_options.h"
+#include "apps/weft/picture_file.h"
 
 namespace weft::apps {
 
@@ -55,7 +56,7 @@ int run(DisplayArguments const& a) {
     post::DisplayChain const chain = display_chain(a.display);
     print_warning(chain);
     for (std::string const& path : a.outputs) image::check_writable(path);
-    image::Image image = image::read_image(a.picture);
+    image::Image image = read_picture(a.picture);
     if (image.is_srgb_encoded) decode(image);
     for (std::string const& path : a.outputs) {
         post::write_picture(path, image, chain, {{"Software", "Weft " WEFT_VERSION}});

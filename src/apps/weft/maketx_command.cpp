@@ -42,7 +42,7 @@ int run(MaketxArguments const& a) {
             throw InputError(image + ": the image and its conversion are the same file; -o names "
                                      "another");
         try {
-            image::make_texture_file(image, to, scene::transfer_of(color_space),
+            image::make_texture_file(image, to, scene::encoding_of(color_space),
                                      [&](double fraction) { print_conversion(image, fraction); });
         } catch (image::IoError const& e) {
             throw InputError(e.what());

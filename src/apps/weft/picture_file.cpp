@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <exception>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "film/cryptomatte.h"
@@ -94,6 +95,27 @@ std::string channels_text(scene::AovInfo const& info) {
 }
 
 } // namespace
+
+void refuse_parts(std::string const& path) {
+    std::vector<std::string> const parts = image::part_names(path);
+    if (parts.size() > 1)
+        throw InputError({path}, fmt::format("expected a file of one part, found {} ({}): their "
+                                             "channels have to be joined in one part first",
+                                             parts.size(), fmt::join(parts, ", ")));
+}
+
+void warn_of_words(std::string const& path, image::Image const& image) {
+    for (std::string const& warning : image.warnings)
+        fmt::print(stderr, "warning: {}: {}\n", path, warning);
+}
+
+image::Image read_picture(std::string const& path) {
+    image::Image image = image::read_image(path);
+    if (size_t const parts = image::part_names(path).size(); parts > 1)
+        image.warnings.push_back(fmt::format("of its {} parts the first is looked at", parts));
+    warn_of_words(path, image);
+    return image;
+}
 
 image::ExrHeader picture_header(session::RenderResult const& r, session::Plan const& plan,
                                 uint64_t scene_hash, uint32_t seed) {

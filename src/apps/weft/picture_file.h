@@ -10,6 +10,15 @@
 
 namespace weft::apps {
 
+/// Reads a picture and tells on stderr what of its file's words is not followed. Throws InputError.
+image::Image read_picture(std::string const& path);
+
+/// Tells on stderr what of a file's words is not followed.
+void warn_of_words(std::string const& path, image::Image const& image);
+
+/// Throws InputError for a file of several parts, for commands that would lose all but the first.
+void refuse_parts(std::string const& path);
+
 /// Returns what a picture's file says beside its channels: what made it, how far it got, its
 /// camera. `scene_hash` is that of the job's scene.
 image::ExrHeader picture_header(session::RenderResult const& result, session::Plan const& plan,

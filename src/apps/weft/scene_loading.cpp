@@ -1,4 +1,5 @@
 #include "apps/weft/scene_loading.h"
+#include "apps/weft/picture_file.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -50,7 +51,7 @@ void read_picture_files(io::SceneFile const& file, scene::PostprocessJob const& 
     for (auto const& [name, id] : scene::pictures_of(job.postprocess).inputs) {
         scene::PictureName const& picture = file.pictures[size_t(id.index)];
         if (picture.file.empty() || pictures.contains(id.index)) continue;
-        image::Image image = image::read_image(picture.file);
+        image::Image image = read_picture(picture.file);
         // As lightwave reads them, and textures here.
         if (image.is_srgb_encoded && !picture.linear)
             for (float& v : image.pixels) v = image::decoded(image::Transfer::gamma22, v);

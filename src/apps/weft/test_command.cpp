@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "apps/weft/commands.h"
+#include "apps/weft/picture_file.h"
 #include "apps/weft/scene_loading.h"
 #include "apps/weft/texture_options.h"
 #include "image/compare.h"
@@ -54,7 +55,7 @@ bool has_negative(image::Image const& picture) {
 /// Writes the picture of a test, compares it and prints the verdict.
 void judge(std::string const& folder, std::string const& name, image::Image const& picture,
            scene::ImageTest const& limits, double seconds, Tally& tally) {
-    image::Image const reference = image::read_image(path_of(folder, name, "_ref.exr"));
+    image::Image const reference = read_picture(path_of(folder, name, "_ref.exr"));
     image::write_exr(path_of(folder, name, "_test.exr"), picture);
     image::Difference const d = image::compare(picture, reference);
     bool const negative = !limits.allow_negative && has_negative(picture);
@@ -71,7 +72,7 @@ void judge(std::string const& folder, std::string const& name, image::Image cons
 /// Throws where a test's picture cannot be written or its reference cannot be read.
 void check_files(std::string const& folder, std::string const& name) {
     image::check_writable(path_of(folder, name, "_test.exr"));
-    image::read_image(path_of(folder, name, "_ref.exr"));
+    read_picture(path_of(folder, name, "_ref.exr"));
 }
 
 void run_test(scene::RenderJob const& job, session::RenderOptions const& options, Tally& tally) {
