@@ -47,11 +47,10 @@ Fixture const& fixture() {
 
 void disney_hit(benchmark::State& state) {
     Fixture const& f = fixture();
-    media::MediumStack const outside = f.world->outside();
     size_t i = 0;
     for (auto _ : state) {
         SeenPoint const& s = f.seen[i++ % f.seen.size()];
-        shading::Shading const shading = f.world->shade(s.point, s.wo, outside);
+        shading::Shading const shading = f.world->shade(s.point, s.wo);
         benchmark::DoNotOptimize(shading.bsdf.sample(s.wo, s.u));
     }
 }

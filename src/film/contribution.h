@@ -24,9 +24,14 @@ class SampleSink {
     /// Null where beauty is all that is wanted.
     SampleRecord* record() const { return record_; }
 
+    /// Tells that the path was in more objects at once than it can remember.
+    void lose_track() { lost_track_ = true; }
+    bool has_lost_track() const { return lost_track_; }
+
   private:
     Color beauty_;
     SampleRecord* record_ = nullptr;
+    bool lost_track_ = false;
 };
 
 } // namespace weft::film

@@ -103,7 +103,10 @@ Color transmitted(Tracer const& t, PathState const& path, Connection const& c,
         blockers ? t.world.visibility(shadow, look_after(t.settings, path.diffused)) : Color(1);
     if (is_black(through) || !t.world.has_media()) return through;
     media::MediumStack media = path.media;
-    if (c.through) cross_boundary(t.world, c.here.surface()->point, c.light.wi, media);
+    if (c.through) {
+        c.here.surface()->crossings.cross(media);
+        through *= c.here.surface()->radiance_through(ScatteringKind::Diffuse);
+    }
     uint32_t const alpha_seed =
         t.world.has_alpha() ? t.stream.walk(sampling::Dimension::Light, path.step).next_uint() : 0;
     through *= media_transmittance(t.world, shadow, media, alpha_seed);

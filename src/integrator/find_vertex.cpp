@@ -4,6 +4,7 @@
 #include "integrator/direct.h"
 #include "integrator/found_light.h"
 #include "integrator/media_walk.h"
+#include "integrator/place.h"
 #include "integrator/record.h"
 
 namespace weft::integrator {
@@ -12,10 +13,9 @@ namespace {
 
 using sampling::Dimension;
 
-world::Hit intersect(Tracer const& t, PathState const& path) {
-    uint32_t const alpha_seed =
-        t.world.has_alpha() ? t.stream.walk(Dimension::Alpha, path.step).next_uint() : 0;
-    return t.world.intersect(path.ray, alpha_seed);
+/// Returns what decides which surfaces of partial opacity the path's ray meets.
+uint32_t alpha_seed(Tracer const& t, PathState const& path) {
+    return t.world.has_alpha() ? t.stream.walk(Dimension::Alpha, path.step).next_uint() : 0;
 }
 
 /// Samples how far the path flies through the medium that it is in. Returns the distance to where
@@ -31,12 +31,19 @@ float fly(Tracer const& t, PathState& path, float limit) {
     return s.scattered ? s.distance : limit;
 }
 
-/// Returns whether the object's boundary cannot be seen: it only encloses a medium, or lies inside
-/// of another object that is there in its place.
-bool is_unseen(PathState const& path, world::World const& world, uint32_t object) {
-    world::Model const& model = world.model(object);
-    return model.is_null ||
-           (model.has_interior && !path.media.is_visible(object, world.object(object).rank));
+/// Changes what the path carries by a factor of radiance.
+void scale_radiance(PathState& path, float factor) {
+    path.throughput *= factor;
+    path.eta_scale /= factor;
+}
+
+/// Lets the path go straight on behind `point`.
+void go_on_behind(PathState& path, shading::SurfacePoint const& point) {
+    world::Ray& ray = path.ray;
+    ray.origin = shading::offset_origin(point, ray.direction);
+    ray.t_min = world::Ray().t_min;
+    ray.t_max -= point.t;
+    ray.cone.width = ray.cone.width_at(point.t);
 }
 
 /// Lets the camera see through a hole that the object cuts: black, with the alpha of a background.
@@ -68,35 +75,39 @@ bool show_matte(Tracer const& t, PathState& path, Vertex const& here) {
 
 bool find_vertex(Tracer const& t, PathState& path, Vertex& here) {
     for (++path.step; path.step <= path.bounces() + 1 + kMaxCrossings; ++path.step) {
-        world::Hit const hit = intersect(t, path);
+        uint32_t const seed = alpha_seed(t, path);
+        world::Hit const hit = t.world.intersect(path.ray, seed);
         add_lamps(t, path, hit.t);
         if (float const distance = fly(t, path, hit.t); distance < hit.t) {
             here.move_into_medium(t, path, distance);
+            if (hit) here.keep_before(t, path, hit);
             return true;
         }
         if (!hit) {
             add_background(t, path);
             return false;
         }
-        if (is_unseen(path, t.world, hit.object)) {
-            pass_through(t, path, t.world.surface(path.ray, hit));
+        Place const place =
+            place_at(t.world, path.ray, hit, world::Query::closest, seed, path.media);
+        scale_radiance(path, place.radiance_here);
+        if (!place.is_seen) {
+            place.crossings.cross(path.media);
+            scale_radiance(path, place.radiance_through);
+            go_on_behind(path, point_of(t.world, path.ray, place));
             continue;
         }
-        SurfaceVertex const& surface = here.move_to_surface(t, path, hit);
+        SurfaceVertex const& surface = here.move_to_surface(t, path, place);
         if (!is_matte(t.settings, path, surface.model)) return true;
         if (!show_matte(t, path, here)) return false;
-        pass_through(t, path, surface.point, false);
+        go_on_behind(path, surface.point);
     }
     return false;
 }
 
-void pass_through(Tracer const& t, PathState& path, shading::SurfacePoint const& point, bool into) {
-    world::Ray& ray = path.ray;
-    if (into) cross_boundary(t.world, point, ray.direction, path.media);
-    ray.origin = shading::offset_origin(point, ray.direction);
-    ray.t_min = world::Ray().t_min;
-    ray.t_max -= point.t;
-    ray.cone.width = ray.cone.width_at(point.t);
+void pass_through(PathState& path, SurfaceVertex const& surface) {
+    surface.crossings.cross(path.media);
+    scale_radiance(path, surface.radiance_through(ScatteringKind::Straight));
+    go_on_behind(path, surface.point);
 }
 
 SurfaceVertex const* find_first_surface(Tracer const& t, PathState& path, Vertex& here) {
@@ -104,7 +115,7 @@ SurfaceVertex const* find_first_surface(Tracer const& t, PathState& path, Vertex
         SurfaceVertex const* const surface = here.surface();
         if (!surface || !surface->model.is_see_through) return surface;
         if (!surface->passes(here.sample(t.stream, path.step, t.settings.by_part))) return surface;
-        pass_through(t, path, surface->point);
+        pass_through(path, *surface);
     }
     return nullptr;
 }

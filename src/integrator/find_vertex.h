@@ -12,10 +12,8 @@ namespace weft::integrator {
 /// hole that an object cuts; or the ray met so many surfaces that it is taken for lost.
 bool find_vertex(Tracer const& t, PathState& path, Vertex& here);
 
-/// Lets the path go straight on behind a surface that is not seen, or that lets it through. `into`:
-/// what the surface encloses is there, though.
-void pass_through(Tracer const& t, PathState& path, shading::SurfacePoint const& point,
-                  bool into = true);
+/// Lets the path go straight on behind a surface that lets it through.
+void pass_through(PathState& path, SurfaceVertex const& surface);
 
 /// Follows a camera ray like `find_vertex`, but also behind what lets it straight through. Returns
 /// the surface that the path scatters at first; null where it meets none, or scatters in a medium

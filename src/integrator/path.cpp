@@ -4,7 +4,6 @@
 #include "integrator/direct.h"
 #include "integrator/find_vertex.h"
 #include "integrator/found_light.h"
-#include "integrator/media_walk.h"
 #include "integrator/record.h"
 
 namespace weft::integrator {
@@ -32,8 +31,15 @@ void remember(Tracer const& t, PathState& path, Vertex const& here, lobes::BsdfS
 }
 
 /// Sends the path's ray from `here` towards `wi`.
-void leave(Tracer const& t, PathState& path, Vertex const& here, Vec3 const& wi, bool through) {
-    if (through) cross_boundary(t.world, here.surface()->point, wi, path.media);
+void leave(Tracer const& t, PathState& path, Vertex const& here, Vec3 const& wi,
+           Scattering scattering) {
+    if (scattering.through) {
+        SurfaceVertex const& surface = *here.surface();
+        surface.crossings.cross(path.media);
+        float const factor = surface.radiance_through(scattering.kind);
+        path.throughput *= factor;
+        path.eta_scale /= factor;
+    }
     world::Ray& ray = path.ray;
     ray.origin = here.origin(wi);
     ray.direction = wi;
@@ -53,12 +59,12 @@ bool scatter(Tracer const& t, PathState& path, Vertex const& here) {
     if (surface && t.record()) record_bounce(t, path, *surface, s);
     path.throughput *= s.weight;
     if (surface && surface->passes(s)) {
-        pass_through(t, path, surface->point);
+        pass_through(path, *surface);
         return true;
     }
     path.eta_scale *= s.eta_scale;
     remember(t, path, here, s);
-    leave(t, path, here, s.wi, s.scattering.through);
+    leave(t, path, here, s.wi, s.scattering);
     return true;
 }
 
@@ -75,10 +81,8 @@ bool survives_roulette(Tracer const& t, PathState& path) {
     return true;
 }
 
-} // namespace
-
-void trace_path(Tracer const& t, world::Ray const& camera_ray, media::MediumStack const& media) {
-    PathState path(t.settings, camera_ray, media);
+/// Goes from vertex to vertex, to the path's end.
+void follow(Tracer const& t, PathState& path) {
     Vertex here;
     while (path.bounces() < t.settings.depth && survives_roulette(t, path) &&
            find_vertex(t, path, here)) {
@@ -89,6 +93,14 @@ void trace_path(Tracer const& t, world::Ray const& camera_ray, media::MediumStac
         if (!last) direct(t, path, here);
         if (!scatter(t, path, here)) return;
     }
+}
+
+} // namespace
+
+void trace_path(Tracer const& t, world::Ray const& camera_ray, media::MediumStack const& media) {
+    PathState path(t.settings, camera_ray, media);
+    follow(t, path);
+    if (path.media.has_overflowed()) t.sink.lose_track();
 }
 
 } // namespace weft::integrator

@@ -2,7 +2,7 @@
 
 #include "base/feature.h"
 #include "integrator/first_hit.h"
-#include "integrator/media_walk.h"
+#include "integrator/place.h"
 
 namespace weft::integrator {
 
@@ -112,12 +112,13 @@ world::Ray PixelRenderer::camera_ray(Vec2i pixel, sampling::SampleStream const& 
                       u.get1(Dimension::Time), path_.footprint_scale);
 }
 
-Color PixelRenderer::sample(Vec2i pixel, uint32_t sample, film::SampleRecord* record) const {
+Color PixelRenderer::sample(Vec2i pixel, uint32_t sample, film::SampleRecord* record,
+                            bool* lost_track) const {
     sampling::SampleStream const stream(sampler_, pixel, sample, seed_);
     world::Ray const ray = camera_ray(pixel, stream);
     return match(integrator_, [&]<class I>(I const& i) {
         if constexpr (scene::FollowsLight<I>) {
-            return follow_light(ray, stream, record);
+            return follow_light(ray, stream, record, lost_track);
         } else {
             film::SampleSink nowhere;
             return draw(i, Tracer{world_, stage_.lights(), path_, stream, nowhere}, ray, media_);
@@ -126,7 +127,7 @@ Color PixelRenderer::sample(Vec2i pixel, uint32_t sample, film::SampleRecord* re
 }
 
 Color PixelRenderer::follow_light(world::Ray const& ray, sampling::SampleStream const& stream,
-                                  film::SampleRecord* record) const {
+                                  film::SampleRecord* record, bool* lost_track) const {
     if (record) record->clear();
     if (record && record->log())
         record->log()->push_back({.kind = film::PathEvent::Kind::Camera,
@@ -135,6 +136,7 @@ Color PixelRenderer::follow_light(world::Ray const& ray, sampling::SampleStream 
                                   .value = Color(1)});
     film::SampleSink sink(record);
     trace_path({world_, stage_.lights(), path_, stream, sink}, ray, media_);
+    if (lost_track) *lost_track |= sink.has_lost_track();
     if (record && record->layout().has(film::Aov::removed)) {
         film::SampleSink whole;
         trace_path({world_, stage_.lights(), unruled_, stream, whole}, ray, media_);

@@ -20,7 +20,9 @@ class PixelRenderer {
     /// Returns the radiance that sample number `sample` of `pixel` sees: a pure function of its
     /// arguments, the seed and, where textures are filtered by footprints, the samples per pixel.
     /// `record`, where given, is cleared and then holds all else that the sample says.
-    Color sample(Vec2i pixel, uint32_t sample, film::SampleRecord* record = nullptr) const;
+    /// `lost_track`: set where the path was in more objects at once than it can remember.
+    Color sample(Vec2i pixel, uint32_t sample, film::SampleRecord* record = nullptr,
+                 bool* lost_track = nullptr) const;
 
     /// Returns whether samples are radiance, rather than some property of the scene. Radiance is
     /// not negative, and only such samples fill records.
@@ -30,7 +32,7 @@ class PixelRenderer {
     world::Ray camera_ray(Vec2i pixel, sampling::SampleStream const& u) const;
     /// Follows a path, and where the record asks for it a second one that heeds no controls.
     Color follow_light(world::Ray const& ray, sampling::SampleStream const& stream,
-                       film::SampleRecord* record) const;
+                       film::SampleRecord* record, bool* lost_track) const;
 
     lights::Stage const& stage_;
     world::World const& world_; ///< of the stage

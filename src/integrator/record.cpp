@@ -105,7 +105,8 @@ void set_surface(Tracer const& t, PathState const& path, Vertex const& here,
                  film::SampleRecord& record) {
     bool const first = path.bounces() == 0;
     if (!first && record.has_guides()) return;
-    auto const& [object, point, shading] = *here.surface();
+    shading::SurfacePoint const& point = here.surface()->point;
+    shading::Shading const& shading = here.surface()->shading;
     Vec3 const& wo = here.wo;
     Vec3 const n = mean_normal(shading.bsdf);
     Color const albedo = shading.bsdf.albedo(wo);

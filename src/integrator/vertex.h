@@ -11,6 +11,7 @@
 
 #include "base/feature.h"
 #include "integrator/path_state.h"
+#include "integrator/place.h"
 #include "media/phase.h"
 
 namespace weft::integrator {
@@ -50,13 +51,21 @@ struct SurfaceVertex {
     world::Model const& model;
     shading::SurfacePoint point;
     shading::Shading shading; ///< seen from where the path comes from
+    Crossings crossings;      ///< of what goes through
+    float straight_radiance;  ///< factor of radiance, of what goes through without refraction
 
-    SurfaceVertex(world::World const& world, PathState const& path, world::Hit const& hit)
-        : model(world.model(hit.object)), point(world.surface(path.ray, hit)),
-          shading(world.shade(point, -path.ray.direction, path.media, path.look)) {}
+    SurfaceVertex(world::World const& world, PathState const& path, Place const& place)
+        : model(world.model(place.hit.object)), point(point_of(world, path.ray, place)),
+          shading(world.shade(point, -path.ray.direction, place.ior_outside, path.look)),
+          crossings(place.crossings), straight_radiance(place.radiance_through) {}
     SurfaceVertex(SurfaceVertex const&) = delete;
 
     lobes::Bsdf const& bsdf() const { return shading.bsdf; }
+    /// Returns the factor of radiance of what goes through by a scattering of that kind. Lobes that
+    /// refract have their own.
+    float radiance_through(ScatteringKind kind) const {
+        return model.has_interior && kind != ScatteringKind::Straight ? 1 : straight_radiance;
+    }
     /// Returns whether light that comes from `wi` passes through the surface on its way to `wo`.
     bool is_through(Vec3 const& wi) const { return !bsdf().reflects(wi); }
     /// Returns where a ray towards `wi` starts.
@@ -88,9 +97,13 @@ class Vertex {
 
     /// Moves the vertex to where the path's ray meets a surface.
     SurfaceVertex const& move_to_surface(Tracer const& t, PathState const& path,
-                                         world::Hit const& hit);
+                                         Place const& place);
     /// Moves the vertex to `distance` along the path's ray, in the medium that it is in.
     void move_into_medium(Tracer const& t, PathState const& path, float distance);
+
+    /// Moves a vertex in a medium that rounding may have put on a surface ahead, or behind it, to
+    /// where it is certainly before it. `hit`: of the path's ray with that surface.
+    void keep_before(Tracer const& t, PathState const& path, world::Hit const& hit);
 
     /// Returns the surface that the vertex is on; null in a medium.
     SurfaceVertex const* surface() const { return on_surface_ ? &surface_ : nullptr; }

@@ -105,7 +105,7 @@ bool LightLints::lets_light_through(world::Ray const& ray, world::Hit const& hit
     world::Model const& m = world_.model(hit.object);
     if (m.has_alpha || m.is_see_through || m.is_null || m.has_interior) return true;
     auto const point = world_.surface(ray, hit);
-    auto const shading = world_.shade(point, -ray.direction, world_.outside());
+    auto const shading = world_.shade(point, -ray.direction);
     return any(shading.bsdf.sides(), lobes::Sides::Transmission);
 }
 
@@ -191,8 +191,7 @@ void LightLints::look_at_mirrors() {
         world::Ray const ray = world_.camera().ray(raster, Vec2(0.5f), 0.5f);
         world::Hit const hit = world_.intersect(ray, uint32_t(i));
         if (!hit || world_.model(hit.object).is_null) continue;
-        auto const shading =
-            world_.shade(world_.surface(ray, hit), -ray.direction, world_.outside());
+        auto const shading = world_.shade(world_.surface(ray, hit), -ray.direction);
         int mirrored = 0;
         for (int k = 0; k < picks; ++k) {
             auto const s =

@@ -21,4 +21,8 @@ std::vector<std::string> lint_warnings(Stage const& stage, scene::Integrator con
 /// The part of it that is about lights.
 std::vector<std::string> light_warnings(Stage const& stage);
 
+/// The part of it that is about what objects enclose: glass and media in meshes that are open or
+/// turned inside out.
+std::vector<std::string> solid_warnings(world::World const& world);
+
 } // namespace weft::lights

@@ -51,6 +51,9 @@ struct RenderResult {
     Profile profile;             ///< of this render's passes, where it was asked for
     uint64_t bad_samples = 0;
     std::vector<BadSample> first_bad_samples; ///< in pixel order, at most 4
+    /// Of this render alone: whose paths were in more objects at once than media::MediumStack
+    /// holds.
+    uint64_t lost_samples = 0;
 };
 
 /// `options` are those that the plan was made with; observers, identity and a state to resume may

@@ -63,7 +63,10 @@ class TileRenderer {
     }
 
     void add(Vec2i pixel, uint32_t s, film::SampleRecord* record) {
-        Color const c = renderer_.sample(pixel, s, record);
+        bool lost_track = false;
+        Color const c = renderer_.sample(pixel, s, record, &lost_track);
+        if (lost_track) [[unlikely]]
+            count_lost();
         FeatureScope const scope(Feature::Film);
         bool const good = is_good(c) && (!record || record->finish());
         if (!good) [[unlikely]]
@@ -73,6 +76,11 @@ class TileRenderer {
 
     bool is_good(Color const& c) const {
         return is_finite(c) && (min_component(c) >= 0 || !renderer_.follows_light());
+    }
+
+    void count_lost() {
+        std::lock_guard lock(mutex_);
+        ++result_.lost_samples;
     }
 
     void report_bad(BadSample const& bad, film::SampleRecord* record) {
@@ -93,7 +101,7 @@ class TileRenderer {
     RenderResult& result_;
     Gate& gate_;
     BlockGrid grid_;
-    std::mutex mutex_; ///< of the bad samples
+    std::mutex mutex_; ///< of the bad and the lost samples
 };
 
 } // namespace weft::session

@@ -3,6 +3,7 @@
 #include <tuple>
 
 #include "base/match.h"
+#include "world/solidity.h"
 #include "world/world_builder.h"
 
 namespace weft::world {
@@ -27,6 +28,17 @@ struct Boundary {
     }
 };
 
+/// Returns an enclosure whose box has room for what rounding does: boxes that touch overlap.
+Enclosure with_margin(Enclosure e) {
+    auto const largest = [](double a, double b) { return std::max(std::abs(a), std::abs(b)); };
+    double const margin =
+        kRounding * std::max({largest(e.low.x, e.high.x), largest(e.low.y, e.high.y),
+                              largest(e.low.z, e.high.z)});
+    e.low = e.low - Vec3d(margin);
+    e.high = e.high + Vec3d(margin);
+    return e;
+}
+
 } // namespace
 
 void WorldBuilder::rank_boundaries() {
@@ -34,10 +46,17 @@ void WorldBuilder::rank_boundaries() {
     for (uint32_t i = 0; i < world_.object_count(); ++i) {
         Model const& m = world_.model(i);
         if (!m.has_interior) continue;
+        world_.has_interiors_ = true;
         Affined const to_world =
             m.in_world_space ? Affined() : Affined(world_.space_of(i).to_world);
-        all.push_back({i, m.traits.priority,
-                       match(m.geometry, [&](auto const& g) { return enclosure(g, to_world); })});
+        Enclosure const enclosed =
+            match(m.geometry, [&](auto const& g) { return enclosure(g, to_world); });
+        all.push_back({i, m.traits.priority, with_margin(enclosed)});
+    }
+    for (Model& m : world_.models_) {
+        if (!m.has_interior) continue;
+        Solidity const s = match(m.geometry, [](auto const& g) { return solidity(g); });
+        m.has_parts = s.has_parts && s.open_edges == 0;
     }
     std::sort(all.begin(), all.end(),
               [](Boundary const& a, Boundary const& b) { return a.key() < b.key(); });

@@ -34,12 +34,17 @@ void WorldBuilder::attach(RTCScene to, RTCGeometry geometry, uint32_t id, bool f
     rtcReleaseGeometry(geometry);
 }
 
+RTCSceneFlags WorldBuilder::scene_flags() const {
+    return world_.has_interiors() ? RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | kQueryFilters)
+                                  : RTC_SCENE_FLAG_ROBUST;
+}
+
 RTCScene WorldBuilder::instanced_scene(Geometry const& geometry) {
     auto& [scene, filtered] = shared_scenes_.at(key_of(geometry));
     if (scene) return scene;
     scene = rtcNewScene(world_.device_);
     world_.instanced_scenes_.push_back(scene);
-    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneFlags(scene, scene_flags());
     RTCGeometry const made = match(
         geometry, [&](auto const& g) { return make_kernel_geometry(g, world_.device_, Affine()); });
     attach(scene, made, 0, filtered, ~0u);
@@ -54,7 +59,7 @@ void WorldBuilder::build_kernel_scene() {
         throw InputError("the ray kernel cannot be started" +
                          (config.empty() ? "" : " with " + config));
     world_.embree_scene_ = rtcNewScene(world_.device_);
-    rtcSetSceneFlags(world_.embree_scene_, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneFlags(world_.embree_scene_, scene_flags());
     for (uint32_t i = 0; i < world_.object_count(); ++i)
         if (Model const& m = world_.model(i); m.instanced)
             shared_scenes_[key_of(m.geometry)].filtered |= needs_filter(i);
@@ -75,6 +80,11 @@ void WorldBuilder::build_kernel_scene() {
     }
     rtcCommitScene(world_.embree_scene_);
     throw_on_error(world_.device_);
+    RTCBounds box;
+    rtcGetSceneBounds(world_.embree_scene_, &box);
+    for (float x : {box.lower_x, box.lower_y, box.lower_z, box.upper_x, box.upper_y, box.upper_z})
+        if (std::isfinite(x))
+            world_.largest_coordinate_ = std::max(world_.largest_coordinate_, std::abs(x));
 }
 
 float World::radius() const {

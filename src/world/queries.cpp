@@ -1,5 +1,8 @@
 // Asks the ray kernel: closest hits and shadow rays, and the filters that it calls at surfaces of
 // partial opacity.
+#include <algorithm>
+#include <tuple>
+
 #include "base/feature.h"
 #include "base/hash.h"
 #include "base/match.h"
@@ -16,6 +19,8 @@ struct World::FilterContext {
     shading::Look look;  ///< of a shadow ray: at what lets light straight through
     Color visibility{1}; ///< of a shadow ray: what gets through so far
     EdgeHits met;
+    NearHits* near = nullptr;          ///< collects hits
+    std::array<EdgeHits, 2> collected; ///< there: fronts, backs
 
     FilterContext(World const& w, Query q) : world(&w), asked(q) { init_context(&query); }
 
@@ -23,8 +28,8 @@ struct World::FilterContext {
         return *reinterpret_cast<FilterContext*>(args->context);
     }
     /// Returns the hit of the same point in a neighbouring triangle, or null.
-    EdgeHits::Entry const* repeated(Hit const& hit, Corners corners) const {
-        return met.find(hit, corners, [&](uint32_t object, uint32_t a, Corners c, uint32_t b) {
+    EdgeHits::Entry const* repeated(EdgeHits const& known, Hit const& hit, Corners corners) const {
+        return known.find(hit, corners, [&](uint32_t object, uint32_t a, Corners c, uint32_t b) {
             auto const* mesh = std::get_if<TriangleMesh>(&world->model(object).geometry);
             return mesh && has_corners(*mesh, a, c, b);
         });
@@ -97,7 +102,7 @@ void World::filter_closest(RTCFilterFunctionNArguments const* args) {
     if (context.asked == Query::passable && !world.is_passable(hit.object)) args->valid[0] = 0;
     if (args->valid[0] == 0 || !world.model(hit.object).has_alpha) return;
     Corners const corners = context.corners(hit);
-    if (EdgeHits::Entry const* const known = context.repeated(hit, corners)) {
+    if (EdgeHits::Entry const* const known = context.repeated(context.met, hit, corners)) {
         if (known->passed) args->valid[0] = 0;
         return;
     }
@@ -120,12 +125,71 @@ void World::filter_shadow(RTCFilterFunctionNArguments const* args) {
     World const& world = *context.world;
     Hit const hit = world.filtered_hit(args);
     Corners const corners = context.corners(hit);
-    if (!world.is_passable(hit.object) && !context.repeated(hit, corners)) {
+    if (!world.is_passable(hit.object) && !context.repeated(context.met, hit, corners)) {
         context.visibility *=
             world.transmittance(hit, hit_normal(args), ray_direction(args), context.look);
         context.met.add(hit, corners, !is_black(context.visibility));
     }
     if (!is_black(context.visibility)) args->valid[0] = 0;
+}
+
+namespace {
+
+/// By object as well: the order in which the kernel finds what is equally far says nothing.
+bool is_nearer(Hit const& a, Hit const& b) {
+    return std::tuple(a.t, a.object, a.primitive) < std::tuple(b.t, b.object, b.primitive);
+}
+
+} // namespace
+
+void NearHits::add(Hit const& hit) {
+    if (size_ < kMost) {
+        all_[size_++] = hit;
+        return;
+    }
+    Hit& farthest = *std::max_element(all_.begin(), all_.end(), is_nearer);
+    if (is_nearer(hit, farthest)) farthest = hit;
+}
+
+Hit const* NearHits::closest() const {
+    return size_ == 0 ? nullptr : std::min_element(begin(), end(), is_nearer);
+}
+
+/// Keeps the hit and goes on.
+void World::collect(RTCFilterFunctionNArguments const* args) {
+    if (args->valid[0] == 0) return;
+    args->valid[0] = 0;
+    FilterContext& context = FilterContext::of(args);
+    World const& world = *context.world;
+    Hit const hit = world.filtered_hit(args);
+    if (context.asked == Query::passable && !world.is_passable(hit.object)) return;
+    Corners const corners = context.corners(hit);
+    EdgeHits& known = context.collected[dot(hit_normal(args), ray_direction(args)) > 0];
+    if (context.repeated(known, hit, corners)) return;
+    known.add(hit, corners, false);
+    context.near->add(hit);
+}
+
+void World::hits_near(Ray const& ray, shading::SurfacePoint const& point, Query query,
+                      uint32_t alpha_seed, NearHits& near) const {
+    FeatureScope const scope(query == Query::passable ? Feature::ShadowRays : Feature::ClosestHits);
+    FilterContext context(*this, query);
+    context.seed = alpha_seed;
+    context.near = &near;
+    // The kernel's distances are off by the rounding of the largest coordinates that take part, and
+    // the more so the flatter a ray meets the surface.
+    Vec3 const& n = point.ng;
+    float const error =
+        dot(abs(n), point.p_error) +
+        kRounding * (largest_coordinate_ + max_component(abs(ray.origin)) + point.t);
+    float const reach = 2 * error / std::max(std::abs(dot(n, ray.direction)), 1e-6f);
+    RTCRayHit answer;
+    answer.ray = to_kernel(ray);
+    answer.ray.tnear = std::max(ray.t_min, point.t - reach);
+    answer.ray.tfar = std::min(ray.t_max, point.t + reach);
+    answer.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    answer.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    embree_intersect(embree_scene_, &context.query, &answer, collect);
 }
 
 Hit World::intersect(Ray const& ray, uint32_t alpha_seed) const {

@@ -1,6 +1,7 @@
 // Rays and what they hit.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "base/vec.h"
@@ -29,6 +30,27 @@ struct Hit {
     float u = 0, v = 0; ///< barycentric coordinates of vertices 1 and 2; x and y of a disk's own
     float time = 0;     ///< of the ray, in [0, 1] of the shutter interval
     explicit operator bool() const { return object != UINT32_MAX; }
+};
+
+/// Hits close to another one on the same ray, in no order.
+class NearHits {
+  public:
+    /// Of more than these, the closest are kept.
+    static constexpr uint32_t kMost = 31;
+
+    NearHits() {}
+    NearHits(NearHits const&) = delete;
+    void add(Hit const& hit);
+    /// Returns the closest; null where there are none.
+    Hit const* closest() const;
+    Hit const* begin() const { return all_.data(); }
+    Hit const* end() const { return all_.data() + size_; }
+
+  private:
+    union { // not initialised: the first size_ are written
+        std::array<Hit, kMost> all_;
+    };
+    uint32_t size_ = 0;
 };
 
 /// How many units in the last place a computed position may be off: the chain of transform,

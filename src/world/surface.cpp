@@ -139,12 +139,11 @@ shading::View World::view_of(shading::SurfacePoint const& point, Vec3 const& wo,
             look};
 }
 
-shading::Shading World::shade(shading::SurfacePoint const& point, Vec3 const& wo,
-                              media::MediumStack const& stack, shading::Look const& look) const {
+shading::Shading World::shade(shading::SurfacePoint const& point, Vec3 const& wo, float ior_outside,
+                              shading::Look const& look) const {
     FeatureScope const scope(Feature::Shading);
     Model const& m = model(point.object);
-    shading::View const view =
-        view_of(point, wo, m.has_interior ? stack.current_without(point.object).ior : 1, look);
+    shading::View const view = view_of(point, wo, ior_outside, look);
     shading::Shading shading(empty_bsdf(point, view));
     shading.emission = emission(point, wo);
     if (m.traits.bsdf) materials_.shade(m.traits.bsdf, point, view, shading);

@@ -38,8 +38,10 @@ struct alignas(64) Model {
     /// The material itself lets light straight through in parts. Not where light also goes inside,
     /// since the medium stack then has a say.
     bool is_see_through = false;
-    bool has_interior = false;       ///< crossing its surface changes the medium stack
-    bool is_null = false;            ///< no surface: rays pass straight on
+    bool has_interior = false; ///< crossing its surface changes the medium stack
+    bool is_null = false;      ///< no surface: rays pass straight on
+    /// Its inside may be entered several times before it is left: it is closed, of several parts.
+    bool has_parts = false;
     bool needs_tangents = false;     ///< something looks at dpdu and dpdv of its points
     bool needs_object_space = false; ///< something looks at more of its points than uv
     bool softens_bent_light = false; ///< see scene::SoftensBentLight
@@ -114,6 +116,11 @@ class World {
     /// Returns the closest boundary that `visibility` looks through, by its opacity as for
     /// `intersect`. For rays whose `visibility` is not 0.
     Hit intersect_passable(Ray const& ray, uint32_t alpha_seed) const;
+    /// Finds the hits that the kernel, which rounds, may not tell apart from `point`, the closest
+    /// one of `query`, by their distance; `point` itself may be among them. A point on an edge
+    /// counts once for all triangles there that face the same way.
+    void hits_near(Ray const& ray, shading::SurfacePoint const& point, Query query,
+                   uint32_t alpha_seed, NearHits& near) const;
     /// Returns the part of light that gets through the surfaces along the ray up to t_max: 0 behind
     /// an opaque surface, the product of (1 - opacity) + opacity * (what the material lets straight
     /// through) elsewhere. Passable boundaries count as not there.
@@ -124,9 +131,10 @@ class World {
 
     /// Returns the point of the surface that a ray has met.
     shading::SurfacePoint surface(Ray const& ray, Hit const& hit) const;
-    /// Returns emission and lobes at `point` towards unit `wo`, seen from within `stack`.
+    /// Returns emission and lobes at `point` towards unit `wo`. `ior_outside`: index of refraction
+    /// around the object there.
     shading::Shading shade(shading::SurfacePoint const& point, Vec3 const& wo,
-                           media::MediumStack const& stack, shading::Look const& look = {}) const;
+                           float ior_outside = 1, shading::Look const& look = {}) const;
     /// Returns the point of an object that is nearest to `p`, a place on it: of the triangle
     /// `primitive`, where it is a mesh. Seen from unit `wo`.
     shading::SurfacePoint point_near(uint32_t object, uint32_t primitive, Vec3 const& p,
@@ -150,6 +158,12 @@ class World {
     bool is_passable(uint32_t index) const {
         return model(index).is_null || objects_[index].may_be_hidden;
     }
+    /// Returns whether more may happen at a surface of the object than there: other boundaries lie
+    /// in it, and a ray passes all of them.
+    bool may_coincide(uint32_t index) const {
+        Model const& m = model(index);
+        return m.has_interior || (m.is_see_through && has_interiors_);
+    }
     /// Returns the objects that area lights hold, those of one light side by side.
     std::span<AreaObject const> area_objects() const { return area_objects_; }
     /// Makes an object emit `factor` times as much, for the light that holds it and has a power.
@@ -163,6 +177,8 @@ class World {
     media::MediumStack outside() const { return outside_; }
     /// Returns whether straight lines may cross media or passable boundaries.
     bool has_media() const { return has_media_; }
+    /// Returns whether any object has an inside that rays get into.
+    bool has_interiors() const { return has_interiors_; }
     /// Returns whether objects heed controls (scene::RayVisibility, holdouts, shadow catchers,
     /// ...).
     bool has_controls() const { return has_controls_; }
@@ -194,6 +210,7 @@ class World {
     struct FilterContext;
     static void filter_closest(RTCFilterFunctionNArguments const* args);
     static void filter_shadow(RTCFilterFunctionNArguments const* args);
+    static void collect(RTCFilterFunctionNArguments const* args);
     Hit filtered_hit(RTCFilterFunctionNArguments const* args) const;
     /// Answers any query but those of shadow rays.
     Hit closest(Ray const& ray, Query query, uint32_t alpha_seed) const;
@@ -240,6 +257,8 @@ class World {
     media::MediumStack outside_;
     WorldStatistics statistics_;
     bool has_media_ = false;
+    bool has_interiors_ = false;
+    float largest_coordinate_ = 0; ///< of the box around all objects
     bool has_alpha_ = false;
     bool has_controls_ = false, has_controls_by_kind_ = false;
     bool use_footprints_ = false; ///< some texture depends on them

@@ -62,6 +62,7 @@ class WorldBuilder {
     /// Says which rays meet which objects, in build_masks.cpp.
     void mask_models();
     void build_kernel_scene();
+    RTCSceneFlags scene_flags() const;
     /// Returns the kernel's scene that all instances of a geometry share.
     RTCScene instanced_scene(Geometry const& geometry);
     bool needs_filter(uint32_t object) const;

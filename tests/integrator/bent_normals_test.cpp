@@ -165,7 +165,9 @@ TEST(BentNormals, SmoothBallsHaveNoBlackTriangles) {
                 world::Hit const hit = scene.world->intersect(ray);
                 if (!hit || hit.t > 100) continue;
                 PathState path(PathSettings{}, ray, scene.world->outside());
-                SurfaceVertex const vertex(*scene.world, path, hit);
+                Place found;
+                found.hit = hit;
+                SurfaceVertex const vertex(*scene.world, path, found);
                 Vec3 const n = vertex.point.ns;
                 if (dot(n, vertex.point.wo) < 0.02f || dot(n, sun_at) < 0.02f) continue;
                 ++met;

@@ -45,6 +45,41 @@ TEST(Lints, AreSilentAboutGoodScenes) {
     expect_none(kFloor + R"(<light type="envmap"><texture type="constant" value="0.5"/></light>)");
 }
 
+TEST(Lints, SolidsThatAreNot) {
+    TemporaryFolder const folder;
+    auto const block = [&](char const* name, std::string const& faces) {
+        std::ofstream(folder / name) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n" << faces;
+        return "<instance id=\"thing\"><shape type=\"mesh\" filename=\"" + std::string(name) +
+               "\"/>";
+    };
+    std::string const rest = "</instance>" + point("position=\"1,3,-2\""),
+                      glass = R"(<bsdf type="roughdielectric"/>)";
+    std::string const closed = block("closed.obj", "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"),
+                      open = block("open.obj", "f 1 3 2\nf 1 2 4\nf 2 3 4\n"),
+                      inwards = block("in.obj", "f 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n");
+    auto const said = [&](std::string const& contents) {
+        std::string all;
+        for (std::string const& w : warnings(kFloor + contents + rest, folder.path()))
+            all += w + "\n";
+        return all;
+    };
+    EXPECT_EQ(said(closed + glass), "");
+    EXPECT_EQ(said(open + "<bsdf type=\"diffuse\"/>"), "");
+    EXPECT_NE(said(open + glass).find("3 of its 6 edges are open"), std::string::npos);
+    EXPECT_NE(said(open + glass).find("'thing'"), std::string::npos) << said(open + glass);
+    EXPECT_NE(said(open + R"(<medium type="homogeneous" absorption="1"/>)").find("has a medium"),
+              std::string::npos);
+    EXPECT_NE(said(inwards + glass).find("normals point inwards"), std::string::npos);
+    // Rounding may part what is one vertex, as at the seam of what was turned on a lathe.
+    std::ofstream(folder / "seam.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+                                          "v 1e-9 0 -1e-8\nv 0 1.00000005 0\n"
+                                          "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 6 5 4\n";
+    EXPECT_EQ(said("<instance><shape type=\"mesh\" filename=\"seam.obj\"/>" + glass), "");
+    std::string holes = closed;
+    holes.replace(holes.find(" id="), 0, " alpha=\"0.5\"");
+    EXPECT_NE(said(holes + glass).find("partly transparent"), std::string::npos);
+}
+
 TEST(Lints, NoLight) {
     expect_one(kFloor, {"test:1:1: ", "no light", "add a <light>"});
     EXPECT_TRUE(warnings(kFloor, "", "type=\"normal\"").empty());

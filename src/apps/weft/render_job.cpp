@@ -145,6 +145,11 @@ JobResult finish(Rendering const& r, post::DisplayChain const& chain,
                  session::RenderResult&& result, ProgressLine& progress) {
     report_bad_samples(result.bad_samples, result.first_bad_samples,
                        std::to_string(r.options.picture.seed));
+    if (result.lost_samples > 0)
+        fmt::print(stderr,
+                   "warning: {} samples were inside of more than {} closed objects at once; what "
+                   "the innermost of them do to light is left out there\n",
+                   result.lost_samples, media::MediumStack::kMostObjects);
     if (std::string const why = why_unwritten(r, result); !why.empty()) {
         fmt::print(stderr, "{}\n", why);
         return {kInterrupted, {}};
