@@ -2,19 +2,38 @@
 # SETUP=true skips the installing of packages, on a distribution that tools/setup does not know.
 
 SETUP ?= tools/setup
+PREFIX ?= /usr/local
 FUZZ_SECONDS ?= 60
 WEFT := build/release/weft
 
 .DEFAULT_GOAL := help
-.PHONY: help weft demo figures test bench bench-peers docs format check dev asan tsan fuzz clean
+.PHONY: help weft weights demo install package test-package figures test bench bench-peers docs format check dev asan tsan fuzz clean
 
 help: ## Print this list
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-11s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-12s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
 
 demo: ## Install what is missing, build, and render scenes/demo.xml to build/demo.exr and .png
 demo: weft
 	$(WEFT) render scenes/demo.xml -o build/demo.exr -o build/demo.png
 	@echo "The pictures are build/demo.exr and build/demo.png"
+
+# Without them the program denoises by other means, so that nothing fails for the want of them.
+weights: ## Fetch the weights of the denoiser's network, if npm is there
+	@$(SETUP) denoise || echo "Going on without the weights: 'weft denoise' will use non-local means."
+
+install: ## Build, and install to PREFIX (/usr/local): make install PREFIX=~/.local
+install: weft weights
+	cmake --install build/release --prefix $(PREFIX)
+
+package: ## Make a Debian package, build/weft_VERSION_ARCHITECTURE.deb
+package: weft weights
+	@$(SETUP) package
+	cpack --config build/release/CPackConfig.cmake -B build/package
+	cp build/package/weft_*.deb build/
+
+test-package: ## Install the package in a new Debian made by debootstrap, and render there; as root
+test-package: package
+	tools/test_package build/weft_*.deb
 
 figures: ## Render the figures of docs/figures.md to build/figures
 figures: weft

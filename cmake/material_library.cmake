@@ -1,5 +1,5 @@
-# Writes the text of scenes/materials/*.xml into a source file, so that the program can print them
-# wherever it is installed.
+# Writes the text of scenes/materials/*.xml into a source file, so that the program can print and include
+# them wherever it is installed.
 function(weft_material_library output)
   file(GLOB files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/scenes/materials/*.xml)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${files})
@@ -12,11 +12,11 @@ function(weft_material_library output)
     math(EXPR count "${count} + 1")
   endforeach()
   file(CONFIGURE OUTPUT ${output} @ONLY CONTENT "// Generated from scenes/materials.
-#include \"apps/weft/material_library.h\"
+#include \"io/material_library.h\"
 
 #include <array>
 
-namespace weft::apps {
+namespace weft::io {
 
 namespace {
 
@@ -27,6 +27,6 @@ constexpr std::array<LibraryFile, @count@> files{{
 
 std::span<LibraryFile const> material_library() { return files; }
 
-} // namespace weft::apps
+} // namespace weft::io
 ")
 endfunction()

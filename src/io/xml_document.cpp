@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/file_bytes.h"
+#include "io/material_library.h"
 
 namespace weft::io {
 
@@ -203,6 +204,11 @@ class Builder {
         return from;
     }
 
+    bool exists(std::string const& file) const {
+        std::error_code error;
+        return fs::exists(fs::path(folder_.str()) / file, error);
+    }
+
     void include(XmlElement const& element, XmlElement& parent, int depth) {
         XmlAttribute const* file = element.find("filename");
         if (!file) throw InputError(element.where, "<include> expects filename=\"...\"");
@@ -214,18 +220,22 @@ class Builder {
             throw InputError(element.children.front()->where,
                              "<include> has no child tags, found <" +
                                  element.children.front()->tag + ">");
-        std::string const path = existing_file(folder_, file->value, file->where);
+        // What does not lie beside the file may be a material that the program carries.
+        auto const carried = exists(file->value) ? std::nullopt : library_text(file->value);
+        std::string const path =
+            carried ? file->value : existing_file(folder_, file->value, file->where);
         fs::path const same = canonical(path);
         if (std::find(includes_.open.begin(), includes_.open.end(), same) != includes_.open.end())
             throw InputError(file->where, "cyclic include: " + in_quotes(file->value) +
                                               " is being read already");
-        FileBytes const bytes = read_file(path);
-        includes_.bytes += bytes.view().size();
+        FileBytes const bytes = carried ? FileBytes({}, 0) : read_file(path);
+        std::string_view const text = carried.value_or(bytes.view());
+        includes_.bytes += text.size();
         if (++includes_.files > kMaxIncludes || includes_.bytes > kMaxIncludedBytes)
             throw InputError(file->where, "expected at most " + std::to_string(kMaxIncludes) +
                                               " includes of 1 GiB together, found more");
         includes_.open.push_back(same);
-        Builder(bytes.view(), path, fs::path(path).parent_path().string(), includes_)
+        Builder(text, path, fs::path(path).parent_path().string(), includes_)
             .build_into(parent, depth);
         includes_.open.pop_back();
     }

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 
 #include "base/error.h"
 
@@ -133,6 +134,10 @@ std::vector<std::string> weight_folders(std::string const& first) {
     fs::path const program = fs::read_symlink("/proc/self/exe", error);
     if (!error)
         folders.push_back((program.parent_path().parent_path() / "share/weft/weights").string());
+    fs::path const named = variable("XDG_DATA_DIRS");
+    std::istringstream shared(named.empty() ? "/usr/local/share:/usr/share" : named.string());
+    for (std::string folder; std::getline(shared, folder, ':');)
+        if (!folder.empty()) folders.push_back((fs::path(folder) / "weft/weights").string());
     return folders;
 }
 

@@ -29,7 +29,8 @@ Weights parse_weights(std::string_view bytes, std::string const& name);
 
 /// The folders that are searched for weights, in order: `first` where it is not empty,
 /// $WEFT_WEIGHTS where it is set, $XDG_DATA_HOME/weft/weights or else ~/.local/share/weft/weights,
-/// and share/weft/weights beside the folder of the program.
+/// share/weft/weights beside the folder of the program, and weft/weights in each of $XDG_DATA_DIRS,
+/// /usr/local/share and /usr/share where it is not set.
 std::vector<std::string> weight_folders(std::string const& first = "");
 
 /// The path of `file` in the first of the folders that has it, or "".

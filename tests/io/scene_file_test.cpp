@@ -334,6 +334,28 @@ TEST(SceneFile, IncludesNestAndKeepTheirFolders) {
     EXPECT_EQ(file.jobs[0].folder, scratch.path.string());
 }
 
+TEST(SceneFile, MaterialsOfTheLibraryAreIncludedFromAnywhere) {
+    Scratch const scratch;
+    scratch.write("main.xml",
+                  "<include filename='materials/gold.xml'/><scene>" + kCamera +
+                      "<instance><shape type='sphere'/><ref id='gold'/></instance></scene>");
+    std::string const path = (scratch.path / "main.xml").string();
+    io::SceneFile file = io::read_scene_file(path);
+    ASSERT_EQ(file.jobs.at(0).scene->materials.size(), 1u);
+    EXPECT_TRUE(std::holds_alternative<scene::Disney>(file.jobs[0].scene->materials[0]));
+
+    // What lies beside the scene goes first, and any other name is a file that is missing.
+    scratch.write("materials/gold.xml", "<bsdf id='gold' type='diffuse' albedo='1,0,0'/>");
+    file = io::read_scene_file(path);
+    EXPECT_TRUE(std::holds_alternative<scene::Diffuse>(file.jobs.at(0).scene->materials.at(0)));
+    for (char const* name :
+         {"materials/gold", "materials/gol.xml", "gold.xml", "./materials/chrome.xml"}) {
+        scratch.write("other.xml", std::string("<include filename='") + name + "'/>");
+        EXPECT_THROW(io::read_scene_file((scratch.path / "other.xml").string()), InputError)
+            << name;
+    }
+}
+
 TEST(SceneFile, IncludesMayNotMultiplyWithoutBound) {
     Scratch const scratch;
     for (int i = 0; i < 30; ++i) {

@@ -93,19 +93,25 @@ class Variable {
 TEST(Weights, AreLookedForWhereThePageSays) {
     Variable const home("HOME", "/h");
     {
-        Variable const own("WEFT_WEIGHTS", "/w"), data("XDG_DATA_HOME", "/d");
+        Variable const own("WEFT_WEIGHTS", "/w"), data("XDG_DATA_HOME", "/d"),
+            shared("XDG_DATA_DIRS", "/s:/t");
         auto const folders = weight_folders("/first");
-        ASSERT_EQ(folders.size(), 4u);
+        ASSERT_EQ(folders.size(), 6u);
         EXPECT_EQ(folders[0], "/first");
         EXPECT_EQ(folders[1], "/w");
         EXPECT_EQ(folders[2], "/d/weft/weights");
         EXPECT_TRUE(folders[3].ends_with("/share/weft/weights")) << folders[3];
+        EXPECT_EQ(folders[4], "/s/weft/weights");
+        EXPECT_EQ(folders[5], "/t/weft/weights");
     }
     {
-        Variable const own("WEFT_WEIGHTS", nullptr), data("XDG_DATA_HOME", nullptr);
+        Variable const own("WEFT_WEIGHTS", nullptr), data("XDG_DATA_HOME", nullptr),
+            shared("XDG_DATA_DIRS", nullptr);
         auto const folders = weight_folders();
-        ASSERT_EQ(folders.size(), 2u);
+        ASSERT_EQ(folders.size(), 4u);
         EXPECT_EQ(folders[0], "/h/.local/share/weft/weights");
+        EXPECT_EQ(folders[2], "/usr/local/share/weft/weights");
+        EXPECT_EQ(folders[3], "/usr/share/weft/weights");
     }
 }
 

@@ -54,7 +54,7 @@ expect "set-up: an unknown set is an error" 2 'tools/setup SET' setup "$everythi
 expect "set-up: no set is an error" 2 'tools/setup SET' setup "$everything"
 expect "set-up: without apt-get it says where to look" 2 'docs/building.md' setup_without_apt build
 expect "set-up: every row is a set, a package and a reason" 1 '^0$' \
-    grep -cvE '^(build|test|check|fuzz|peers) +[a-z0-9.+-]+ +[A-Za-z].+$' <(tools/setup --list)
+    grep -cvE '^(build|test|check|fuzz|package|peers) +[a-z0-9.+-]+ +[A-Za-z].+$' <(tools/setup --list)
 while read -r _ package _; do
     expect "docs/building.md names $package" 0 '' grep -qF -- "\`$package\`" docs/building.md
 done < <(tools/setup --list)

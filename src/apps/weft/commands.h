@@ -29,5 +29,9 @@ void add_denoise_command(CLI::App& app, Command& chosen);
 void add_help_command(CLI::App& app, Command& chosen);
 void add_schema_command(CLI::App& app, Command& chosen);
 void add_docs_command(CLI::App& app, Command& chosen);
+void add_completion_command(CLI::App& app, Command& chosen);
+
+/// Returns all that `weft help` can be asked for: topics, types, categories and materials.
+std::vector<std::string> help_topics();
 
 } // namespace weft::apps

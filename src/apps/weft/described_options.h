@@ -9,6 +9,7 @@
 #include <map>
 #include <string>
 
+#include "apps/weft/command_text.h"
 #include "base/error.h"
 #include "schema/schema.h"
 
@@ -48,9 +49,8 @@ struct OptionAdder {
             std::string help(attr.help);
             if (!attr.unit.empty()) help += " [" + std::string(attr.unit) + "]";
             if constexpr (schema::Choice<T>) {
-                type.clear();
-                for (std::string_view c : choices(value))
-                    type += (type.empty() ? "" : "|") + std::string(c);
+                auto const names = choices(value);
+                type = choice_text({names.begin(), names.end()});
             }
             std::string const name(parameter);
             command

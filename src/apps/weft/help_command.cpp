@@ -1,12 +1,13 @@
-// weft help [TYPE | MATERIAL | materials], weft schema --json, weft docs DIR: all from the one
-// declaration of each parameter.
+// weft help [TYPE | MATERIAL | materials], weft schema --json, weft docs FOLDER | --man: all from
+// the one declaration of each parameter.
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
 #include <memory>
 
 #include "apps/weft/commands.h"
-#include "apps/weft/material_library.h"
+#include "apps/weft/man_page.h"
+#include "apps/weft/material_help.h"
 #include "apps/weft/picture_file.h"
 #include "base/error.h"
 #include "io/scene_file.h"
@@ -50,28 +51,24 @@ int help(HelpArguments const& args) {
         fmt::print("{}", materials_text(args.markdown));
         return kDone;
     }
-    std::vector<std::string> known{"materials", "aov"};
     bool found = false;
     if (name == "aov") {
         fmt::print("{}\n", aovs_text());
         found = true;
     }
     for (schema::Schema const& s : all) {
-        for (std::string_view n : {s.info.type, s.info.category})
-            if (!n.empty() && std::find(known.begin(), known.end(), n) == known.end())
-                known.emplace_back(n);
         if (s.info.type != name && s.info.category != name) continue;
         fmt::print("{}{}", found ? "\n" : "", schema::help_text(s));
         found = true;
     }
     for (LibraryFile const& file : material_library()) {
-        known.emplace_back(file.name);
         if (file.name != name) continue;
         fmt::print("{}{}", found ? "\n" : "", file.text);
         found = true;
     }
     if (!found)
-        throw InputError("no type or material is called '" + name + "'" + suggestion(name, known));
+        throw InputError("no type or material is called '" + name + "'" +
+                         suggestion(name, help_topics()));
     return kDone;
 }
 
@@ -102,6 +99,16 @@ int write_docs(std::string const& folder) {
 
 } // namespace
 
+std::vector<std::string> help_topics() {
+    std::vector<std::string> topics{"materials", "aov"};
+    for (schema::Schema const& s : io::all_schemas())
+        for (std::string_view n : {s.info.type, s.info.category})
+            if (!n.empty() && std::find(topics.begin(), topics.end(), n) == topics.end())
+                topics.emplace_back(n);
+    for (LibraryFile const& file : material_library()) topics.emplace_back(file.name);
+    return topics;
+}
+
 void add_help_command(CLI::App& app, Command& chosen) {
     auto args = std::make_shared<HelpArguments>();
     CLI::App* c = app.add_subcommand(
@@ -127,10 +134,26 @@ void add_schema_command(CLI::App& app, Command& chosen) {
 }
 
 void add_docs_command(CLI::App& app, Command& chosen) {
-    auto folder = std::make_shared<std::string>();
+    struct DocsArguments {
+        std::string folder;
+        bool man = false;
+    };
+    auto a = std::make_shared<DocsArguments>();
     CLI::App* c = app.add_subcommand("docs", "Write the reference pages of all types as Markdown");
-    c->add_option("folder", *folder, "Where to")->required()->type_name("DIR");
-    c->callback([folder, &chosen] { chosen = [folder] { return write_docs(*folder); }; });
+    auto* const folder = c->add_option("folder", a->folder, "Where to")->type_name("FOLDER");
+    c->add_flag("--man", a->man, "Print the manual page of the command line instead")
+        ->excludes(folder);
+    c->callback([a, &app, &chosen] {
+        chosen = [a, &app] {
+            if (a->man) {
+                fmt::print("{}", man_page(command_texts(app)));
+                return int(kDone);
+            }
+            if (a->folder.empty())
+                throw InputError("weft docs expects a folder, or --man, found neither");
+            return write_docs(a->folder);
+        };
+    });
 }
 
 } // namespace weft::apps

@@ -1,5 +1,5 @@
 // The command line: `weft render`, `merge`, `replay`, `test`, `convert`, `info`, `compare`,
-// `display`, `bloom`, `maketx`, `denoise`, `help`, `schema`, `docs`.
+// `display`, `bloom`, `maketx`, `denoise`, `help`, `schema`, `docs`, `completion`.
 #include <cstdio>
 #include <filesystem>
 
@@ -30,6 +30,7 @@ int main(int argc, char** argv) {
     add_help_command(app, chosen);
     add_schema_command(app, chosen);
     add_docs_command(app, chosen);
+    add_completion_command(app, chosen);
     try {
         app.parse(argc, argv);
     } catch (CLI::ParseError const& e) {

@@ -64,7 +64,7 @@ void add_maketx_command(CLI::App& app, Command& chosen) {
     c->add_option("-o,--output", a->output,
                   "Where to: a file, or a folder for several images; "
                   "else beside each image")
-        ->type_name("OUT");
+        ->type_name("OUT.tx");
     c->add_option("--color-space", a->color_space,
                   "How 8 and 16 bit images encode colours, as the texture will say; lin_rec709 for "
                   "data such as normals")

@@ -3,7 +3,7 @@
 #include <array>
 #include <fmt/format.h>
 
-#include "apps/weft/material_library.h"
+#include "apps/weft/material_help.h"
 #include "io/xml_document.h"
 
 namespace weft::apps {

@@ -187,7 +187,7 @@ void add_picture_options(CLI::App& c, RenderArguments& a) {
     c.add_option("--aov", a.aovs,
                  "Further pictures of the same samples in the EXR file, for example "
                  "albedo,normal,depth; may be given several times; `list` lists them")
-        ->type_name("NAMES")
+        ->type_name("AOV,...")
         ->take_all();
     c.add_flag("--preview", a.preview,
                "A quick look: half the size and 8 samples per pixel, unless --size and --spp say "
@@ -235,7 +235,7 @@ void add_watching_options(CLI::App& c, RenderArguments& a) {
     c.add_option("--watch", a.live.watch,
                  "Write the picture so far to this file every two seconds, for a viewer that "
                  "reloads it")
-        ->type_name("PNG");
+        ->type_name("OUT.png");
     c.add_option("--tev", a.live.tev, "Show the picture so far in the viewer tev, every second")
         ->type_name("HOST:PORT");
     c.add_flag("--profile", a.profile,

@@ -17,7 +17,7 @@ void add_texture_options(CLI::App& command, TextureArguments& arguments) {
         .add_option("--texture-cache", arguments.cache.folder,
                     "Folder for the tiled copies of large textures (default "
                     "$XDG_CACHE_HOME/weft/textures or ~/.cache/weft/textures)")
-        ->type_name("DIR");
+        ->type_name("FOLDER");
 }
 
 std::shared_ptr<image::TextureCache> make_texture_cache(TextureArguments const& arguments) {

@@ -1,24 +1,20 @@
-// The materials of scenes/materials, as the program carries them: `weft help materials` and the
-// page docs/materials.md are made of what these files say, so that neither can say something else.
+// What the files of the material library (io/material_library.h) say of themselves, for help and
+// docs.
 //
 // A file opens with a comment: what it is, and sections that begin with "Feel:", "Scale:",
 // "Play with:" and "From:". It then defines a bsdf whose id is the file's name.
 #pragma once
 
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "io/material_library.h"
+
 namespace weft::apps {
 
-struct LibraryFile {
-    std::string_view name; ///< of the file without .xml, and of the bsdf
-    std::string_view text;
-};
-
-/// Returns all files in the order of their names. cmake/material_library.cmake writes the function.
-std::span<LibraryFile const> material_library();
+using io::LibraryFile;
+using io::material_library;
 
 struct LibraryMaterial {
     std::string_view name;
