@@ -241,9 +241,10 @@ void MaterialReader::read_transmission(Object& material, scene::Disney& to, Surf
     auto o = material.extension("KHR_materials_volume");
     bool const clear = to.transmission.value == 0;
     double const thickness = o ? o->number("thicknessFactor", 0, kNotNegative) : 0;
-    if (!clear && thickness == 0)
-        material.report().warn(material.path_of("extensions.KHR_materials_transmission"),
-                               "a thin wall is rendered as a solid body");
+    if (thickness == 0) {
+        to.thin_walled = !clear;
+        to.transmission_roughness = to.roughness;
+    }
     if (!o) return;
     o->ignore("thicknessTexture");
     double const distance = o->number("attenuationDistance", 0, kNotNegative);

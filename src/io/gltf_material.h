@@ -11,7 +11,7 @@
 //   * vertex colours are a factor on the base colour, their alpha one on the opacity.
 //   * iridescence is there or not: a factor between has no counterpart.
 //   * volume: absorption = -ln(attenuationColor) / attenuationDistance. How thick the body is the
-//     geometry says, so thicknessFactor only tells solid (above 0) from thin.
+//     geometry says, so thicknessFactor only tells solid (above 0) from thinWalled.
 //   * unlit: the base colour shines by itself, and is no lamp for others.
 // Emission 1 is a radiance of 1 W/(m^2 sr): unlike lamps, materials are not photometric in
 // practice. Both sides of every surface are there, whatever `doubleSided` says. Occlusion is what

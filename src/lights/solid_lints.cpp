@@ -17,11 +17,12 @@ std::string complaint(world::Model const& m) {
     bool const glass = !m.is_null;
     char const* const what = glass ? "lets light in" : "has a medium";
     if (s.open_edges > 0)
-        return fmt::format("{} but does not enclose a space: {} of its {} edges are open (an odd "
-                           "number of faces has them), and what comes in there or gets out is lost "
-                           "track of; close the mesh{}",
-                           what, s.open_edges, s.edges,
-                           glass ? ", and give a pane of glass its thickness" : "");
+        return fmt::format(
+            "{} but does not enclose a space: {} of its {} edges are open (an odd "
+            "number of faces has them), and what comes in there or gets out is lost "
+            "track of; close the mesh{}",
+            what, s.open_edges, s.edges,
+            glass ? ", or say thinWalled=\"true\" in the bsdf of what is a mere sheet" : "");
     if (s.inwards)
         return fmt::format("{} but its normals point inwards, so that its inside is outside; turn "
                            "its faces around",

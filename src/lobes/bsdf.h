@@ -33,6 +33,7 @@
 #include "lobes/specular_dielectric.h"
 #include "lobes/specular_reflection.h"
 #include "lobes/subsurface_diffuse.h"
+#include "lobes/thin_transmission.h"
 #include "lobes/transparent.h"
 
 namespace weft::lobes {
@@ -42,7 +43,8 @@ using LobeVariant =
     std::variant<Lambert, SpecularReflection, SpecularDielectric, GgxReflection, BeckmannReflection,
                  AshikhminShirleyReflection, GgxDielectric, BeckmannDielectric,
                  AshikhminShirleyDielectric, OrenNayar, BurleyDiffuse, DiffuseTransmission,
-                 Transparent, Sheen, DisneySheen, Clearcoat, Hair, SubsurfaceDiffuse>;
+                 Transparent, Sheen, DisneySheen, Clearcoat, Hair, SubsurfaceDiffuse,
+                 GgxThinTransmission, BeckmannThinTransmission, AshikhminShirleyThinTransmission>;
 
 struct Lobe {
     Color weight;           ///< multiplies the kind's value

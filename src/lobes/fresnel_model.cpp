@@ -33,6 +33,10 @@ Color mean(ConductorFresnel const& f) {
         {at_normal(f.eta.r, f.k.r), at_normal(f.eta.g, f.k.g), at_normal(f.eta.b, f.k.b)}});
 }
 Color mean(ThinFilmFresnel const& f) { return mean(ConductorFresnel{f.eta, f.k}); }
+Color mean(ThinWallFresnel const& f) {
+    Color const r = mean(DielectricFresnel{f.eta});
+    return r * (2 / (1 + r.r));
+}
 
 } // namespace
 

@@ -41,8 +41,15 @@ struct ThinFilmFresnel {
     Color eta, k;
 };
 
+/// Both sides of a wall of relative index `eta`, and all that is reflected to and fro between them:
+/// with R of one side, R + (1 - R)^2 R / (1 - R^2) = 2 R / (1 + R). A film lies on each.
+struct ThinWallFresnel {
+    float eta = 1.5f;
+    ThinFilm film{};
+};
+
 using Fresnel = std::variant<WhiteFresnel, SchlickFresnel, DielectricFresnel, ConductorFresnel,
-                             ThinFilmFresnel>;
+                             ThinFilmFresnel, ThinWallFresnel>;
 
 /// From `f0` at the normal to white at grazing, and `tint` in [0, 1] times Schlick's value at 82
 /// degrees.
@@ -53,6 +60,7 @@ Color reflectance(SchlickFresnel const& fresnel, float cos_o);
 Color reflectance(DielectricFresnel const& fresnel, float cos_o);
 Color reflectance(ConductorFresnel const& fresnel, float cos_o);
 Color reflectance(ThinFilmFresnel const& fresnel, float cos_o);
+Color reflectance(ThinWallFresnel const& fresnel, float cos_o);
 
 /// cos_o in [0, 1] between wo and the (half) normal.
 inline Color reflectance(Fresnel const& fresnel, float cos_o) {
@@ -85,6 +93,11 @@ inline Color reflectance(ConductorFresnel const& f, float cos_o) {
 inline Color reflectance(ThinFilmFresnel const& f, float cos_o) {
     if (f.film.thickness > 0) return thin_film_reflectance(f.film, cos_o, f.eta, f.k);
     return fresnel_conductor(cos_o, f.eta, f.k);
+}
+inline Color reflectance(ThinWallFresnel const& f, float cos_o) {
+    Color const r = f.film ? thin_film_reflectance(f.film, cos_o, f.eta)
+                           : Color(fresnel_dielectric(cos_o, f.eta));
+    return {2 * r.r / (1 + r.r), 2 * r.g / (1 + r.g), 2 * r.b / (1 + r.b)};
 }
 
 } // namespace weft::lobes

@@ -67,6 +67,7 @@ struct MicrofacetReflection {
                              return Color(dielectric_albedo(distribution, wo, f.eta).reflected);
                          },
                          [&](ThinFilmFresnel const&) { return mean_over_normals(wo, e); },
+                         [&](ThinWallFresnel const&) { return mean_over_normals(wo, e); },
                          [&](auto const& f) {
                              return rough_reflectance(f, reflection_moments(distribution, wo));
                          },

@@ -56,6 +56,7 @@ struct Disney {
     Input<Color> clearcoat_tint{Color(1)};
     Input<float> transmission{0};
     Input<float> transmission_roughness{-1};
+    bool thin_walled = false;
     Input<float> subsurface{0};
     Input<Color> subsurface_radius{Color(1, 0.2f, 0.1f)};
     Input<float> subsurface_scale{0.05f};
@@ -145,6 +146,11 @@ struct Disney {
            .max = 1,
            .help = "Roughness of what is seen through the surface; below 0: the same as "
                    "`roughness`, as in nature."});
+        f("thinWalled", thin_walled,
+          {.help =
+               "A sheet without an inside, such as a window pane, a bubble or a leaf: light goes "
+               "through without a bend, half of what is `subsurface` leaves on the other side, "
+               "and the mesh need not be closed."});
         f("subsurface", subsurface,
           {.min = 0,
            .max = 1,
@@ -178,10 +184,11 @@ struct Disney {
 
 template <>
 struct MaterialTraits<Disney> : IsSurface, SoftensBentLight, HasNoParts {
+    static bool transmits(Disney const& m) { return may_differ(m.transmission, 0.f); }
     static std::optional<Input<float>> inner_ior(Disney const& m) {
-        return may_differ(m.transmission, 0.f) ? std::optional(m.ior) : std::nullopt;
+        return transmits(m) && !m.thin_walled ? std::optional(m.ior) : std::nullopt;
     }
-    static bool passes_straight(Disney const&) { return false; }
+    static bool passes_straight(Disney const& m) { return transmits(m) && m.thin_walled; }
     static Input<float> opacity(Disney const& m) { return m.opacity; }
     static std::optional<MaterialEmission> emission(Disney const& m) {
         if (!m.emission_strength.texture && !(m.emission_strength.value > 0)) return {};

@@ -91,6 +91,7 @@ struct Dielectric {
     Input<float> ior{1.5f};
     Input<Color> reflectance{Color(1)};
     Input<Color> transmittance{Color(1)};
+    bool thin_walled = false;
 
     template <class F>
     constexpr void describe(F&& f) {
@@ -103,13 +104,18 @@ struct Dielectric {
           {.min = 0, .max = 1, .help = "A factor on what is reflected."});
         f("transmittance", transmittance,
           {.min = 0, .max = 1, .help = "A factor on what is refracted."});
+        f("thinWalled", thin_walled,
+          {.help = "A sheet without an inside, such as a window pane or a bubble: light goes on "
+                   "without a bend, and the mesh need not be closed."});
     }
 };
 template <>
 struct MaterialTraits<Dielectric>
     : IsSurface, DropsBentLight, IsWholeAndDark, IsIsotropic, HasNoParts {
-    static std::optional<Input<float>> inner_ior(Dielectric const& m) { return m.ior; }
-    static bool passes_straight(Dielectric const&) { return false; }
+    static std::optional<Input<float>> inner_ior(Dielectric const& m) {
+        return m.thin_walled ? std::nullopt : std::optional(m.ior);
+    }
+    static bool passes_straight(Dielectric const& m) { return m.thin_walled; }
 };
 
 namespace dialects {
@@ -133,6 +139,7 @@ struct RoughDielectric {
     Input<Color> transmittance{Color(1)};
     Input<float> roughness{0.5f};
     Microfacets distribution = Microfacets::ggx;
+    bool thin_walled = false;
 
     template <class F>
     constexpr void describe(F&& f) {
@@ -145,12 +152,17 @@ struct RoughDielectric {
         f("roughness", roughness,
           {.min = 0, .max = 1, .help = "0 is smooth, 1 is dull; alpha = max(roughness^2, 0.001)."});
         f("distribution", distribution, {.help = "Distribution of the facets' normals."});
+        f("thinWalled", thin_walled,
+          {.help = "A sheet without an inside, such as frosted paper or a lampshade: light is "
+                   "spread but not bent, and none is lost. The mesh need not be closed."});
     }
 };
 template <>
 struct MaterialTraits<RoughDielectric>
     : IsSurface, DropsBentLight, IsWholeAndDark, IsIsotropic, HasNoParts {
-    static std::optional<Input<float>> inner_ior(RoughDielectric const& m) { return m.ior; }
+    static std::optional<Input<float>> inner_ior(RoughDielectric const& m) {
+        return m.thin_walled ? std::nullopt : std::optional(m.ior);
+    }
     static bool passes_straight(RoughDielectric const&) { return false; }
 };
 

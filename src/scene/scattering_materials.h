@@ -50,6 +50,7 @@ struct Microfacet {
     Input<Color> extinction{Color(3.9f, 2.4f, 2.2f)};
     Input<float> thin_film_thickness{0};
     Input<float> thin_film_ior{1.33f};
+    bool thin_walled = false;
     Input<Vec3> normal{Vec3(0, 0, 0)};
 
     template <class F>
@@ -100,16 +101,22 @@ struct Microfacet {
         f("thinFilmThickness", thin_film_thickness,
           {.unit = "nm", .min = 0, .soft_max = 2000, .help = "A film with interference colours."});
         f("thinFilmIor", thin_film_ior, {.min = 1, .max = 4, .help = "Index of that film."});
+        f("thinWalled", thin_walled,
+          {.help = "Makes glass a sheet without an inside, such as a window pane or a bubble: "
+                   "light goes on "
+                   "without a bend, and the mesh need not be closed."});
         f("normal", normal, {.help = "Shading normal, from a `normalmap` or `bump` node."});
     }
 };
 template <>
 struct MaterialTraits<Microfacet> : IsSurface, SoftensBentLight, IsWholeAndDark, HasNoParts {
-    static std::optional<Input<float>> inner_ior(Microfacet const& m) {
-        bool const refracts = m.metal == Metal::none && may_differ(m.transmittance, Color(0));
-        return refracts ? std::optional(m.ior) : std::nullopt;
+    static bool transmits(Microfacet const& m) {
+        return m.metal == Metal::none && may_differ(m.transmittance, Color(0));
     }
-    static bool passes_straight(Microfacet const&) { return false; }
+    static std::optional<Input<float>> inner_ior(Microfacet const& m) {
+        return transmits(m) && !m.thin_walled ? std::optional(m.ior) : std::nullopt;
+    }
+    static bool passes_straight(Microfacet const& m) { return transmits(m) && m.thin_walled; }
     static bool needs_tangents(Microfacet const& m) { return may_differ(m.anisotropic, 0.f); }
 };
 

@@ -3,7 +3,7 @@
 // those below (Kulla and Conty 2017), so that none adds light; a coat tints by the way that light
 // seen along wo takes through it.
 #include "lobes/conductor_presets.h"
-#include "shading/lobe_builder.h"
+#include "shading/thin_wall.h"
 
 namespace weft::shading {
 
@@ -34,10 +34,14 @@ struct DisneyBuilder {
           roughness(std::max(unit(at(m.roughness)), b.view.look.least_roughness)), ior(at(m.ior)),
           around(b.frame_around(at(m.normal))) {
         float const anisotropic = at(m.anisotropic);
-        auto const [x, y] = stretched_alphas(roughness, anisotropic);
-        facets = {x, y, lobes::Shadowing::Correlated};
+        facets = facets_of(roughness);
         if (anisotropic > 0) around = around.turned(2 * kPi * at(m.anisotropic_rotation));
         film = {at(m.thin_film_thickness), at(m.thin_film_ior), b.view.ior_outside};
+    }
+
+    lobes::Ggx facets_of(float of) const {
+        auto const [x, y] = stretched_alphas(of, at(m.anisotropic));
+        return {x, y, lobes::Shadowing::Correlated};
     }
 
     void layer_over(Color const& reflected) { b.weight *= rest_of(reflected); }
@@ -71,6 +75,16 @@ struct DisneyBuilder {
             fresnel = lobes::ThinFilmFresnel{film, c.eta, c.k};
         }
         b.add(Color(share), lobes::GgxReflection{facets, fresnel, true});
+    }
+
+    void add_sheet(float share) {
+        float const own = at(m.transmission_roughness);
+        float const through = own < 0 ? roughness_through(unit(at(m.roughness)), ior) : own;
+        auto const rough = [&](float r) {
+            return r < kMirrorRoughness ? std::nullopt : std::optional(facets_of(r));
+        };
+        add_thin_wall(b, share, {{ior / b.view.ior_outside, film}, specular_tint, base}, around,
+                      rough(roughness), rough(through));
     }
 
     void add_glass(float share) {
@@ -132,7 +146,9 @@ struct DisneyBuilder {
         Color const below = share * rest_of(reflected) * base;
         float const subsurface = unit(at(m.subsurface));
         b.add(below * (1 - subsurface), lobes::BurleyDiffuse{roughness});
-        b.add(below * subsurface, lobes::SubsurfaceDiffuse{{roughness}});
+        float const across = m.thin_walled ? 0.5f : 0; // of it, as OpenPBR has it
+        b.add(below * subsurface * (1 - across), lobes::SubsurfaceDiffuse{{roughness}});
+        b.add(below * subsurface * across, lobes::DiffuseTransmission{});
     }
 
     void build() {
@@ -144,7 +160,8 @@ struct DisneyBuilder {
         float const glass = (1 - metallic) * transmission;
         float const matte = (1 - metallic) * (1 - transmission);
         if (metallic > 0) add_metal(metallic);
-        if (glass > 0) add_glass(glass);
+        if (glass > 0 && m.thin_walled) add_sheet(glass);
+        if (glass > 0 && !m.thin_walled) add_glass(glass);
         if (matte > 0) add_dielectric(matte);
     }
 };

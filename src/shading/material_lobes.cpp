@@ -1,6 +1,6 @@
 // Materials that are one kind of scattering each.
 #include "lobes/conductor_presets.h"
-#include "shading/lobe_builder.h"
+#include "shading/thin_wall.h"
 
 namespace weft::shading {
 
@@ -8,6 +8,19 @@ namespace {
 
 // The materials of course scenes shadow as Walter et al. 2007 do, and give nothing back.
 constexpr auto kCourse = lobes::Shadowing::Separable;
+
+/// Adds the lobes of a sheet of a course material; `roughness`: none of a smooth one.
+template <class Distribution, class Material>
+void add_course_wall(LobeBuilder const& b, Material const& m, Values const& at,
+                     std::optional<float> roughness) {
+    auto const facets = [](float alpha) { return Distribution{alpha, alpha, kCourse}; };
+    std::optional<Distribution> reflecting, transmitting;
+    if (roughness || b.view.look.least_roughness > 0)
+        reflecting = facets(b.alpha(roughness.value_or(0)));
+    if (roughness) transmitting = facets(alpha_of(roughness_through(*roughness, at(m.ior))));
+    ThinWall const wall{{at(m.ior) / b.view.ior_outside}, at(m.reflectance), at(m.transmittance)};
+    add_thin_wall(b, 1, wall, b.frame, reflecting, transmitting);
+}
 
 } // namespace
 
@@ -38,6 +51,7 @@ void LobeBuilder::operator()(scene::RoughConductor const& m, Values const& at) c
 }
 
 void LobeBuilder::operator()(scene::Dielectric const& m, Values const& at) const {
+    if (m.thin_walled) return add_course_wall<lobes::Ggx>(*this, m, at, std::nullopt);
     float const ior = at(m.ior), eta = relative_ior(ior), alpha = this->alpha(0);
     Color const r = at(m.reflectance), t = at(m.transmittance);
     if (view.look.least_roughness > 0 && eta != 1)
@@ -48,6 +62,12 @@ void LobeBuilder::operator()(scene::Dielectric const& m, Values const& at) const
 }
 
 void LobeBuilder::operator()(scene::RoughDielectric const& m, Values const& at) const {
+    if (m.thin_walled) {
+        float const roughness = at(m.roughness);
+        return m.distribution == scene::Microfacets::ggx
+                   ? add_course_wall<lobes::Ggx>(*this, m, at, roughness)
+                   : add_course_wall<lobes::Beckmann>(*this, m, at, roughness);
+    }
     float const ior = at(m.ior), eta = relative_ior(ior), alpha = this->alpha(at(m.roughness));
     Color const r = at(m.reflectance), t = at(m.transmittance);
     if (eta == 1)
@@ -79,10 +99,12 @@ struct MicrofacetBuilder {
     LobeBuilder const& b;
     scene::Microfacet const& m;
     Values const& at;
+    Frame const& around;
     bool is_metal = m.metal != scene::Metal::none;
-    float ior = at(m.ior);
+    bool is_thin = m.thin_walled && !is_metal;
+    float ior = at(m.ior), anisotropic = at(m.anisotropic);
     lobes::ThinFilm film{at(m.thin_film_thickness), at(m.thin_film_ior),
-                         b.view.entering || is_metal ? b.view.ior_outside : ior};
+                         b.view.entering || is_metal || is_thin ? b.view.ior_outside : ior};
 
     Color reflectance() const {
         return m.metal == scene::Metal::artist ? Color(1) : unit(at(m.reflectance));
@@ -109,6 +131,36 @@ struct MicrofacetBuilder {
         return lobes::ConductorFresnel{eta, k};
     }
 
+    /// Returns the facets of that roughness; none where they are a smooth surface.
+    template <class Distribution>
+    std::optional<Distribution> facets(float roughness) const {
+        if (roughness < kSmooth) return {};
+        auto const [x, y] = stretched_alphas(roughness, anisotropic);
+        return Distribution{x, y,
+                            m.shadowing == scene::Shadowing::separable
+                                ? lobes::Shadowing::Separable
+                                : lobes::Shadowing::Correlated};
+    }
+
+    template <class Distribution>
+    void add() const {
+        float const roughness = at(m.roughness);
+        auto const rough = facets<Distribution>(std::max(roughness, b.view.look.least_roughness));
+        if (is_thin)
+            add_thin(rough, facets<Distribution>(roughness_through(roughness, ior)));
+        else if (rough && (is_metal || b.relative_ior(ior) != 1))
+            add_rough(*rough);
+        else
+            add_smooth();
+    }
+    template <class Distribution>
+    void add_thin(std::optional<Distribution> const& reflecting,
+                  std::optional<Distribution> const& transmitting) const {
+        float const own = at(m.reflection_ior);
+        lobes::ThinWallFresnel const both_sides{(own > 0 ? own : ior) / b.view.ior_outside, film};
+        add_thin_wall(b, 1, {both_sides, reflectance(), transmittance()}, around, reflecting,
+                      transmitting);
+    }
     void add_smooth() const {
         if (is_metal)
             b.add(reflectance(), lobes::SpecularReflection{fresnel()});
@@ -131,25 +183,17 @@ struct MicrofacetBuilder {
 
 void LobeBuilder::operator()(scene::Microfacet const& m, Values const& at) const {
     Frame around = frame_around(at(m.normal));
-    float const roughness = std::max(at(m.roughness), view.look.least_roughness),
-                anisotropic = at(m.anisotropic);
-    if (anisotropic > 0) around = around.turned(2 * kPi * at(m.anisotropic_rotation));
+    if (at(m.anisotropic) > 0) around = around.turned(2 * kPi * at(m.anisotropic_rotation));
     to.bsdf.use_frame(around);
-    MicrofacetBuilder const builder{*this, m, at};
-    if (!builder.is_metal) to.ior = builder.ior;
-    if (roughness < kSmooth || (!builder.is_metal && relative_ior(builder.ior) == 1))
-        return builder.add_smooth();
-    auto const [x, y] = stretched_alphas(roughness, anisotropic);
-    auto const shadowing = m.shadowing == scene::Shadowing::separable
-                               ? lobes::Shadowing::Separable
-                               : lobes::Shadowing::Correlated;
+    MicrofacetBuilder const builder{*this, m, at, around};
+    if (!builder.is_metal && !builder.is_thin) to.ior = builder.ior;
     switch (m.distribution) {
     case scene::MicrofacetDistribution::beckmann:
-        return builder.add_rough(lobes::Beckmann{x, y, shadowing});
+        return builder.add<lobes::Beckmann>();
     case scene::MicrofacetDistribution::ggx:
-        return builder.add_rough(lobes::Ggx{x, y, shadowing});
+        return builder.add<lobes::Ggx>();
     case scene::MicrofacetDistribution::ashikhminShirley:
-        return builder.add_rough(lobes::AshikhminShirley{x, y, shadowing});
+        return builder.add<lobes::AshikhminShirley>();
     }
 }
 

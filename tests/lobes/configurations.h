@@ -47,7 +47,9 @@ inline std::vector<std::pair<std::string, Fresnel>> test_fresnels() {
             {"dielectric of a high index", DielectricFresnel{15}},
             {"conductor", ConductorFresnel{gold.eta, gold.k}},
             {"film on a metal", ThinFilmFresnel{{300, 1.4f}, iron.eta, iron.k}},
-            {"film on glass", ThinFilmFresnel{{450, 1.33f}, Color(1.5f), Color(0)}}};
+            {"film on glass", ThinFilmFresnel{{450, 1.33f}, Color(1.5f), Color(0)}},
+            {"thin wall", ThinWallFresnel{1.5f}},
+            {"thin wall under films", ThinWallFresnel{1.5f, {450, 1.33f}}}};
 }
 
 template <>
@@ -195,6 +197,32 @@ inline std::vector<Configuration<GgxDielectric>> test_configurations<GgxDielectr
 template <>
 inline std::vector<Configuration<BeckmannDielectric>> test_configurations<BeckmannDielectric>() {
     return dielectrics<Beckmann>("BeckmannDielectric");
+}
+
+template <class Distribution>
+std::vector<Configuration<ThinTransmission<Distribution>>>
+thin_transmissions(std::string const& name) {
+    std::vector<Configuration<ThinTransmission<Distribution>>> all;
+    for (Vec2 const& a : {Vec2(0.01f, 0.01f), Vec2(0.2f, 0.2f), Vec2(0.8f, 0.8f), Vec2(0.1f, 0.5f)})
+        all.push_back({name + " alpha " + std::to_string(a.x) + " " + std::to_string(a.y),
+                       Distribution{a.x, a.y}, a.x == a.y,
+                       std::max(1e-4f, 1e-6f / std::min(a.x, a.y)), false, false,
+                       a.x == a.y ? 5e-4 : 2e-3});
+    return all;
+}
+template <>
+inline std::vector<Configuration<GgxThinTransmission>> test_configurations<GgxThinTransmission>() {
+    return thin_transmissions<Ggx>("GgxThinTransmission");
+}
+template <>
+inline std::vector<Configuration<BeckmannThinTransmission>>
+test_configurations<BeckmannThinTransmission>() {
+    return thin_transmissions<Beckmann>("BeckmannThinTransmission");
+}
+template <>
+inline std::vector<Configuration<AshikhminShirleyThinTransmission>>
+test_configurations<AshikhminShirleyThinTransmission>() {
+    return thin_transmissions<AshikhminShirley>("AshikhminShirleyThinTransmission");
 }
 
 template <>

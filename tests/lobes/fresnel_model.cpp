@@ -26,6 +26,8 @@ TEST(FresnelModel, EdgeTintSetsTheValueAt82Degrees) {
 TEST(FresnelModel, MeansAreHemispherical) {
     for (auto const& [name, fresnel] : lobes::testing::test_fresnels()) {
         if (std::holds_alternative<ThinFilmFresnel>(fresnel)) continue; // counts as its base
+        auto const* const wall = std::get_if<ThinWallFresnel>(&fresnel);
+        if (wall && wall->film) continue; // likewise
         Vec3d sum(0);
         constexpr int n = 2000;
         for (int i = 0; i < n; ++i) {

@@ -39,8 +39,10 @@ TEST(Width, IsTheGreaterOfTwoWidths) {
     EXPECT_NEAR(Clearcoat(0.02f).width(), 0.02f, 1e-7f);
 }
 
-/// The slope of the facet that sends light from the normal to `wi`.
-float facet_slope(Vec3 const& wi, float eta) {
+/// The slope of the facet that sends light from the normal to `wi`; of a thin wall, of the one that
+/// would reflect it.
+float facet_slope(Vec3 wi, float eta) {
+    if (eta == 1) wi.z = std::abs(wi.z);
     Vec3 const h = Vec3(0, 0, 1) + wi * (wi.z > 0 ? 1.f : eta);
     return std::sqrt(h.x * h.x + h.y * h.y) / std::abs(h.z);
 }

@@ -66,6 +66,7 @@ TEST(Lints, SolidsThatAreNot) {
     EXPECT_EQ(said(closed + glass), "");
     EXPECT_EQ(said(open + "<bsdf type=\"diffuse\"/>"), "");
     EXPECT_NE(said(open + glass).find("3 of its 6 edges are open"), std::string::npos);
+    EXPECT_EQ(said(open + R"(<bsdf type="dielectric" thinWalled="true"/>)"), "");
     EXPECT_NE(said(open + glass).find("'thing'"), std::string::npos) << said(open + glass);
     EXPECT_NE(said(open + R"(<medium type="homogeneous" absorption="1"/>)").find("has a medium"),
               std::string::npos);
