@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "image/layers.h"
+
 namespace weft::image {
 
 namespace {
 
 /// The channels that hold the colour.
 std::vector<int> color_channels(Image const& image) {
-    for (size_t i = 0; i + 3 <= image.names.size(); ++i)
-        if (image.names[i] == "R" && image.names[i + 1] == "G" && image.names[i + 2] == "B")
-            return {int(i), int(i) + 1, int(i) + 2};
+    if (auto const found = find_colors(image.names)) return {found->begin(), found->end()};
     if (image.channels >= 3) return {0, 1, 2};
     return {0};
 }

@@ -1,10 +1,10 @@
 // How far an image is from a reference.
 //
-// Over all pixels. Colours come first: the channels R, G and B, else the first three where there
-// are three or more, the first where there are one or two (grey, grey and alpha). All other
-// channels are compared one by one, by their names. With a the image and b the reference, in double
-// precision; a value that is not finite in either is counted and left out, unless both are the
-// same.
+// Over all pixels. Colours come first: those of the picture (find_colors in layers.h), else the
+// first three channels where there are three or more, the first where there are one or two (grey,
+// grey and alpha). All other channels are compared one by one, by their names. With a the image and
+// b the reference, in double precision; a value that is not finite in either is counted and left
+// out, unless both are the same.
 #pragma once
 
 #include "image/image.h"

@@ -1,8 +1,7 @@
 // Images as floats, and the files they come from and go to (through OpenImageIO).
 //
-// Left out on purpose: several parts of one file as one image (they are read one by one), levels
-// (the first is read), deep images (refused), and the placement of a data window inside its display
-// window.
+// Left out on purpose: levels (the first is read), deep images (refused), and the placement of a
+// data window inside its display window.
 #pragma once
 
 #include "base/error.h"
@@ -26,6 +25,8 @@ struct Image {
     bool is_converted = false;
     std::vector<std::string> warnings; ///< of what the file says and we do not follow
     std::vector<std::string> names;    ///< empty, or one per channel: "R", "albedo.R", "Z"
+    /// Names of the file's parts that are not in it, since they are deep or lie elsewhere.
+    std::vector<std::string> apart;
 
     float& at(int x, int y, int c) { return pixels[index(x, y, c)]; }
     float at(int x, int y, int c) const { return pixels[index(x, y, c)]; }
@@ -51,11 +52,13 @@ class IoError : public std::runtime_error {
 /// knows. Rows and columns are turned as the file says. Where it says that its colours are neither
 /// Rec. 709 nor meant for a screen (color_words.h), they become linear Rec. 709. Throws InputError
 /// for a file that is missing, damaged, truncated, deep, or larger than 16 GiB as floats.
-Image read_image(std::string const& path, int part = 0);
+///
+/// The parts of an EXR file are one image, where they lie where its picture does: their channels
+/// come one after the other and are called PART.CHANNEL, but for the picture's (parts.h).
+Image read_image(std::string const& path);
 
-/// The names of a file's parts, "" where one has none. A file that is no EXR of several parts has
-/// one. Throws like `read_image`.
-std::vector<std::string> part_names(std::string const& path);
+/// One part of a file, by its name. Throws like `read_image`, and where there is none.
+Image read_part(std::string const& path, std::string const& name);
 
 /// The strings in a file's header, those included that its writer added by itself. Throws like
 /// `read_image`.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "image/parts.h"
 #include "image/shown_picture.h"
 
 namespace weft::image {
@@ -14,29 +15,33 @@ Image make_image(int width, int height, int channels) {
 
 namespace {
 
-/// Returns where a colour's three channels are, one after the other; -1: there is no colour.
-int first_of_color(std::vector<std::string> const& names) {
-    for (size_t i = 0; i + 3 <= names.size(); ++i)
-        if (names[i] == "R" && names[i + 1] == "G" && names[i + 2] == "B") return int(i);
-    return -1;
+/// Returns where the three channels of colours are, one after the other, plain or of a layer.
+std::vector<size_t> colors_in(std::vector<std::string> const& names) {
+    std::vector<size_t> found;
+    for (size_t i = 0; i + 3 <= names.size(); ++i) {
+        std::string const layer = names[i].substr(0, names[i].rfind('.') + 1);
+        if (names[i] == layer + "R" && names[i + 1] == layer + "G" && names[i + 2] == layer + "B")
+            found.push_back(i);
+    }
+    return found;
 }
 
 /// Turns the colours of an image into linear Rec. 709.
 void convert_colors(Image& image, ColorWords const& words, bool integers) {
-    int const first = first_of_color(image.names);
-    if (first < 0) return;
-    bool const has_alpha =
-        integers && size_t(first) + 3 < image.names.size() && image.names[size_t(first) + 3] == "A";
-    for (size_t i = 0; i < image.pixels.size(); i += size_t(image.channels)) {
-        std::span<float> const rgb(&image.pixels[i + size_t(first)], 3);
-        if (integers)
-            for (float& x : rgb) x = decoded(words.transfer, x);
-        words.convert(rgb);
-        if (has_alpha) // as light is stored
-            for (float& x : rgb) x *= image.pixels[i + size_t(first) + 3];
+    for (size_t const first : colors_in(image.names)) {
+        bool const has_alpha =
+            integers && first + 3 < image.names.size() && image.names[first + 3] == "A";
+        for (size_t i = 0; i < image.pixels.size(); i += size_t(image.channels)) {
+            std::span<float> const rgb(&image.pixels[i + first], 3);
+            if (integers)
+                for (float& x : rgb) x = decoded(words.transfer, x);
+            words.convert(rgb);
+            if (has_alpha) // as light is stored
+                for (float& x : rgb) x *= image.pixels[i + first + 3];
+        }
+        image.is_srgb_encoded = false;
+        image.is_converted = true;
     }
-    image.is_srgb_encoded = false;
-    image.is_converted = true;
 }
 
 Image turned(Image const& image, int orientation) {
@@ -66,34 +71,15 @@ Image read_hdr(std::string const& path) {
     return image;
 }
 
-} // namespace
-
-std::vector<std::string> part_names(std::string const& path) {
-    if (HdrFile::has_signature(path)) return {""};
-    auto const input = open_flat_image(path);
-    std::vector<std::string> names{
-        std::string(input->spec().get_string_attribute("oiio:subimagename"))};
-    if (std::string_view(input->format_name()) != "openexr") return names;
-    for (int part = 1; input->seek_subimage(part, 0); ++part)
-        names.emplace_back(input->spec(part, 0).get_string_attribute("oiio:subimagename"));
-    (void)input->geterror(); // of the part after the last
-    return names;
-}
-
-Image read_image(std::string const& path, int part) {
-    if (HdrFile::has_signature(path)) return read_hdr(path);
-    auto const input = open_flat_image(path);
-    if (part > 0 && !input->seek_subimage(part, 0))
-        throw InputError({path}, "expected a part " + std::to_string(part) + ", found none");
-    OIIO::ImageSpec const spec = input->spec(part, 0);
+Image read_part(OIIO::ImageInput& input, int part, std::string const& path) {
+    OIIO::ImageSpec const spec = input.spec(part, 0);
     check_flat(spec, path);
     Image image = make_image(spec.width, spec.height, spec.nchannels);
     image.is_srgb_encoded = is_srgb_encoded(spec);
     image.names = spec.channelnames;
     check_read(
-        *input, path,
-        input->read_image(part, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.pixels.data()));
-    check_end(*input, path);
+        input, path,
+        input.read_image(part, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.pixels.data()));
     ColorWords const words = color_words(spec, png_head(path), {Transfer::srgb});
     image.warnings = words.warnings;
     auto const type = spec.format.basetype;
@@ -104,6 +90,55 @@ Image read_image(std::string const& path, int part) {
     if (int const o = spec.get_int_attribute("Orientation", 1); o > 1 && o <= 8)
         return turned(image, o);
     return image;
+}
+
+/// Puts the channels of a part beside those of the image, which has room for them from `first` on.
+void put_part(Image const& part, int first, Image& image) {
+    for (size_t i = 0; i < image.pixels.size() / size_t(image.channels); ++i)
+        std::copy_n(&part.pixels[i * size_t(part.channels)], part.channels,
+                    &image.pixels[i * size_t(image.channels) + size_t(first)]);
+}
+
+Image read_parts(OIIO::ImageInput& input, FileParts const& parts, std::string const& path) {
+    uint64_t channels = 0;
+    for (size_t i = 0; i < parts.specs.size(); ++i)
+        if (parts.joins(i)) channels += uint64_t(parts.specs[i].nchannels);
+    OIIO::ImageSpec whole = parts.specs[parts.picture];
+    whole.nchannels = int(std::min<uint64_t>(channels, 1u << 16));
+    check_flat(whole, path);
+    Image image = make_image(whole.width, whole.height, whole.nchannels);
+    for (size_t i = 0; i < parts.specs.size(); ++i) {
+        if (!parts.joins(i)) {
+            image.apart.push_back(parts.names[i]);
+            continue;
+        }
+        Image const part = read_part(input, int(i), path);
+        put_part(part, int(image.names.size()), image);
+        image.names.insert(image.names.end(), parts.channels[i].begin(), parts.channels[i].end());
+        image.warnings.insert(image.warnings.end(), part.warnings.begin(), part.warnings.end());
+        image.is_converted |= part.is_converted;
+    }
+    return image;
+}
+
+} // namespace
+
+Image read_image(std::string const& path) {
+    if (HdrFile::has_signature(path)) return read_hdr(path);
+    auto const input = open_image(path);
+    FileParts const parts = parts_of(*input);
+    Image image =
+        parts.specs.size() == 1 ? read_part(*input, 0, path) : read_parts(*input, parts, path);
+    check_end(*input, path);
+    return image;
+}
+
+Image read_part(std::string const& path, std::string const& name) {
+    auto const input = open_image(path);
+    FileParts const parts = parts_of(*input);
+    auto const found = std::find(parts.names.begin(), parts.names.end(), name);
+    if (found == parts.names.end()) throw InputError({path}, "expected a part '" + name + "'");
+    return read_part(*input, int(found - parts.names.begin()), path);
 }
 
 namespace {

@@ -7,11 +7,12 @@
 
 namespace weft::image {
 
-/// Writes `image` to `path`, with the header of the file `original`: its attributes, compression,
-/// windows, and the names and types of its channels. `image` has the size and the channels of
-/// read_image(original). Strings in `more` are added or replace others of their name. Written in
-/// one step as by write_exr. Throws InputError where the extension is not .exr or `original` cannot
-/// be read, and IoError.
+/// Writes `image` to `path`, with the headers and parts of the file `original`: their attributes,
+/// compression, windows, and the names and types of their channels. `image` has the size and the
+/// channels of read_image(original); parts that are not in it and integers, which it rounds, come
+/// from the file. Strings in `more` are added to the first part or replace others of their name.
+/// Written in one step as by write_exr. Throws InputError where the extension is not .exr, or
+/// `original` cannot be read or has deep parts, and IoError.
 void rewrite_exr(std::string const& path, std::string const& original, Image const& image,
                  Metadata const& more = {});
 

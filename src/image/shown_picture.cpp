@@ -49,13 +49,13 @@ Vec2i stored_place(int orientation, int x, int y, int width, int height) {
     }
 }
 
-ShownPicture::ShownPicture(ImageSource const& source, Encoding encoding, Channels channels)
-    : path_(source.path) {
+ShownPicture::ShownPicture(ImageSource const& source, Encoding encoding, Channels channels) {
+    LayerPath const path = source.bytes ? LayerPath{source.path, ""} : split_layer(source.path);
+    path_ = path.file;
     open(source);
-    if (has_channels_ =
-            channels == Channels::color || (input_ && input_->spec().alpha_channel >= 0);
-        has_channels_)
-        take_words(source, encoding, channels);
+    if (input_) choose_channels(path.layer, channels);
+    if (has_channels_ && channels == Channels::alpha) has_channels_ = input_ != nullptr;
+    if (has_channels_) take_words(source, encoding, channels);
 }
 ShownPicture::~ShownPicture() = default;
 
@@ -64,11 +64,26 @@ void ShownPicture::open(ImageSource const& source) {
         memory_ = std::make_unique<OIIO::Filesystem::IOMemReader>(source.bytes->data(),
                                                                   source.bytes->size());
         input_ = open_flat_image(*memory_, source.path);
-    } else if (HdrFile::has_signature(source.path)) {
-        hdr_ = std::make_unique<HdrFile>(source.path);
+    } else if (HdrFile::has_signature(path_)) {
+        hdr_ = std::make_unique<HdrFile>(path_);
     } else {
-        input_ = open_flat_image(source.path);
+        input_ = open_image(path_);
     }
+}
+
+void ShownPicture::choose_channels(std::string const& layer, Channels channels) {
+    FileParts const parts = parts_of(*input_);
+    channels_ = find_channels(parts, layer, path_);
+    input_->seek_subimage(channels_.part, 0);
+    check_flat(input_->spec(), path_);
+    if (channels == Channels::color) return;
+    // The alpha of the same layer, or of the picture.
+    auto const& names = parts.channels[size_t(channels_.part)];
+    auto const alpha = std::find(names.begin(), names.end(), layer + ".A");
+    channels_.first =
+        alpha != names.end() ? int(alpha - names.begin()) : input_->spec().alpha_channel;
+    channels_.count = 1;
+    has_channels_ = channels_.first >= 0;
 }
 
 void ShownPicture::take_words(ImageSource const& source, Encoding encoding, Channels channels) {
@@ -87,20 +102,20 @@ void ShownPicture::take_words(ImageSource const& source, Encoding encoding, Chan
         stored_width_ = spec.width;
         stored_height_ = spec.height;
         if (channels == Channels::alpha) {
-            first_channel_ = spec.alpha_channel;
             stored_ = texel_format(spec, Transfer::linear, channels);
         } else {
             words = color_words(spec, png_head(source), encoding);
             stored_ = texel_format(spec, words.transfer, channels);
             stored_.transfer = words.transfer;
         }
+        stored_.channels = channels_.count;
         place(spec);
     }
     warnings_ = std::move(words.warnings);
     convert_ = std::move(words.convert);
     format_ = convert_ ? TexelFormat{TexelType::f32, 3, Transfer::linear} : stored_;
-    as_stored_ = !convert_ && placement_.orientation == 1 && placement_.x == 0 &&
-                 placement_.y == 0 && placement_.width == stored_width_ &&
+    as_stored_ = !convert_ && channels_.part == 0 && placement_.orientation == 1 &&
+                 placement_.x == 0 && placement_.y == 0 && placement_.width == stored_width_ &&
                  placement_.height == stored_height_;
     if (!as_stored_ && uint64_t(placement_.width) * uint64_t(placement_.height) > kMostTexels)
         throw InputError({path_}, "expected a window of at most 2^31 pixels to be shown, found " +
@@ -123,7 +138,10 @@ void ShownPicture::place(OIIO::ImageSpec const& spec) {
 }
 
 bool ShownPicture::is_in_tiles() const {
-    return input_ && input_->spec().tile_width > 0 && input_->spec_dimensions(0, 1).width > 0;
+    if (!input_ || channels_.part > 0 || channels_.first > 0) return false;
+    OIIO::ImageSpec const& spec = input_->spec();
+    return channels_.count == (spec.nchannels >= 3 ? 3 : 1) && spec.tile_width > 0 &&
+           input_->spec_dimensions(0, 1).width > 0;
 }
 
 int ShownPicture::strip() const {
@@ -142,12 +160,13 @@ void ShownPicture::check_end() {
 /// Rows as the file has them, of the channels that are wanted.
 void ShownPicture::read_stored(OIIO::TypeDesc type, int begin, int end, void* to) {
     OIIO::ImageSpec const& spec = input_->spec();
-    int const y = spec.y + begin, last = first_channel_ + stored_.channels;
+    auto const [part, first, count] = channels_;
+    int const y = spec.y + begin, last = first + count;
     bool const read =
         spec.tile_width > 0
-            ? input_->read_tiles(0, 0, spec.x, spec.x + spec.width, y, spec.y + end, spec.z,
-                                 spec.z + 1, first_channel_, last, type, to)
-            : input_->read_scanlines(0, 0, y, spec.y + end, spec.z, first_channel_, last, type, to);
+            ? input_->read_tiles(part, 0, spec.x, spec.x + spec.width, y, spec.y + end, spec.z,
+                                 spec.z + 1, first, last, type, to)
+            : input_->read_scanlines(part, 0, y, spec.y + end, spec.z, first, last, type, to);
     check_read(*input_, path_, read);
     if (end == stored_height_) check_end();
 }

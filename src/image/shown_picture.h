@@ -13,6 +13,7 @@
 #include "image/color_words.h"
 #include "image/hdr_file.h"
 #include "image/input.h"
+#include "image/parts.h"
 #include "image/texture.h"
 
 namespace weft::image {
@@ -32,7 +33,8 @@ std::string png_head(ImageSource const& source);
 
 class ShownPicture {
   public:
-    /// Throws like `read_image`; also for a cube map, which no uv square can hold.
+    /// Of an EXR file the picture, or the layer that the path names after a colon (find_channels in
+    /// parts.h). Throws like `read_image`; also for a cube map, which no uv square can hold.
     ShownPicture(ImageSource const& source, Encoding encoding, Channels channels = Channels::color);
     ~ShownPicture();
 
@@ -44,7 +46,8 @@ class ShownPicture {
     /// Returns whether the file's texels are those of the picture, so that a cache of tiles may
     /// read them.
     bool is_as_stored() const { return as_stored_; }
-    bool is_in_tiles() const; ///< with mip levels
+    /// With mip levels, of which the first channels are wanted, as a cache of tiles reads them.
+    bool is_in_tiles() const;
     /// What the file says and we do not follow.
     std::vector<std::string> const& warnings() const { return warnings_; }
 
@@ -56,6 +59,7 @@ class ShownPicture {
   private:
     void open(ImageSource const& source);
     void take_words(ImageSource const& source, Encoding encoding, Channels channels);
+    void choose_channels(std::string const& layer, Channels channels);
     void place(OIIO::ImageSpec const& spec);
     std::vector<float> stored_floats();
     std::vector<std::byte> stored_texels();
@@ -67,7 +71,8 @@ class ShownPicture {
     std::unique_ptr<OIIO::Filesystem::IOMemReader> memory_;
     std::unique_ptr<OIIO::ImageInput> input_; ///< or else
     std::unique_ptr<HdrFile> hdr_;
-    int stored_width_ = 0, stored_height_ = 0, first_channel_ = 0;
+    int stored_width_ = 0, stored_height_ = 0;
+    ChannelRange channels_; ///< those that are wanted
     TexelFormat stored_, format_;
     Placement placement_;
     ColorConversion convert_;

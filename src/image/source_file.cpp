@@ -6,6 +6,8 @@
 #include <memory>
 #include <vector>
 
+#include "image/parts.h"
+
 namespace weft::image {
 
 namespace {
@@ -26,7 +28,12 @@ uint64_t hash_file(std::string const& path) {
 } // namespace
 
 uint64_t SourceFile::contents_hash() const {
-    std::call_once(once_, [&] { hash_ = hash_file(path_); });
+    std::call_once(once_, [&] {
+        LayerPath const wanted = split_layer(path_);
+        hash_ = hash_file(wanted.file);
+        if (hash_ != 0 && !wanted.layer.empty())
+            hash_ = OIIO::xxhash::xxhash(wanted.layer.data(), wanted.layer.size(), hash_);
+    });
     return hash_;
 }
 

@@ -13,6 +13,7 @@ namespace weft::image {
 
 class SourceFile {
   public:
+    /// The path may name a layer (parts.h).
     explicit SourceFile(std::string path) : path_(std::move(path)) {}
 
     /// Of all bytes of the file as it is at the first call, which reads it; 0 where that cannot be

@@ -36,8 +36,10 @@ FileFacts facts_of(std::string const& path, Encoding encoding) {
 
 /// The name that a file's conversion has in the folder.
 std::string converted_name(std::string const& path, Encoding encoding) {
-    fs::path const whole = fs::canonical(path);
-    std::string const key = whole.string() + '\n' + std::to_string(fs::file_size(whole)) + '\n' +
+    LayerPath const wanted = split_layer(path);
+    fs::path const whole = fs::canonical(wanted.file);
+    std::string const key = whole.string() + '\n' + wanted.layer + '\n' +
+                            std::to_string(fs::file_size(whole)) + '\n' +
                             std::to_string(fs::last_write_time(whole).time_since_epoch().count()) +
                             '\n' + std::to_string(int(encoding.transfer)) +
                             (encoding.stated ? " stated\n" : "\n") + kFormatVersion;

@@ -9,14 +9,18 @@ namespace weft::post {
 struct Inputs {
     Pictures const& pictures;
 
-    /// Null where the parameter is not given.
-    image::Image const* find(scene::ImageId id) const {
-        return id ? &pictures.at(id.index).image : nullptr;
+    /// Returns the colours of a picture: its channels R, G and B, or all where these are not there.
+    image::Image colors(scene::ImageId id) const;
+    /// Returns the three channels of a layer of a picture; empty for the layer "".
+    image::Image layer(scene::ImageId id, std::string const& name) const;
+    /// Returns the names of a picture's channels.
+    std::vector<std::string> const& channels(scene::ImageId id) const {
+        return pictures.at(id.index).image.names;
     }
 };
 
-/// A picture that a postprocess has made, and what to note in its file about how ("denoising
-/// (nlm)"). Throws InputError without a place.
+/// The colours of a picture that a postprocess has made of those of its `input`, and what to note
+/// in its file about how ("denoising (nlm)"). Throws InputError without a place.
 struct Applied {
     image::Image image;
     std::string how;

@@ -114,8 +114,7 @@ image::Image apply_bloom(scene::Bloom const& bloom, image::Image const& image) {
 }
 
 Applied apply(scene::Bloom const& bloom, Inputs const& inputs) {
-    image::Image const* const input = inputs.find(bloom.input);
-    return {apply_bloom(bloom, *input),
+    return {apply_bloom(bloom, inputs.colors(bloom.input)),
             "bloom (" + schema::TextForm<scene::BloomKind>::write(bloom.kind) + ")"};
 }
 

@@ -8,6 +8,7 @@
 #include <cstdlib>
 
 #include "base/match.h"
+#include "image/layers.h"
 #include "post/tone_curves.h"
 #include "schema/text.h"
 
@@ -92,12 +93,14 @@ struct Layout {
 };
 
 Layout layout_of(image::Image const& image) {
-    auto find = [&](char const* name) {
+    auto find = [&](std::string const& name) {
         auto const at = std::find(image.names.begin(), image.names.end(), name);
         return at == image.names.end() ? -1 : int(at - image.names.begin());
     };
-    if (int const r = find("R"), g = find("G"), b = find("B"); r >= 0 && g >= 0 && b >= 0)
-        return {{r, g, b}, find("A"), false};
+    if (auto const colors = image::find_colors(image.names)) {
+        std::string const& red = image.names[size_t((*colors)[0])];
+        return {*colors, find(red.substr(0, red.rfind('.') + 1) + "A"), false};
+    }
     if (int const y = find("Y"); y >= 0) return {{y, y, y}, find("A"), true};
     if (image.channels > 4)
         throw InputError("expected channels R, G and B or Y, found " +

@@ -40,8 +40,9 @@ enum class Alpha { keep, drop };
 
 /// Shows a linear image. The result `is_srgb_encoded`: numbers for a screen in [0, 1], colours not
 /// premultiplied. It has the channels Y, YA, RGB or RGBA; grey remains grey unless the chain gives
-/// it a colour (white balance, OpenColorIO). Of an image with other channels, R, G, B and A are
-/// shown; throws InputError where more than four have none of these names.
+/// it a colour (white balance, OpenColorIO). Of an image with other channels, the colours of
+/// image::find_colors and their alpha are shown, or Y; throws InputError where more than four have
+/// none of these names.
 image::Image show(DisplayChain const& chain, image::Image const& image, Alpha alpha);
 
 /// Writes a picture. Files for screens get what the chain makes of it, and the chain's description

@@ -4,8 +4,8 @@
 
 #include <memory>
 
+#include "image/layers.h"
 #include "post/exposure.h"
-#include "post/layers.h"
 
 namespace weft::post {
 
@@ -161,7 +161,7 @@ class Denoiser {
 image::Image denoise_oidn(OidnLibrary const& library, DenoiseInput const& input, Quality quality,
                           int memory) {
     Denoiser denoiser(library, memory);
-    image::Image color = take_channels(*input.color, {0, 1, 2}), albedo, normal;
+    image::Image color = image::take_channels(*input.color, {0, 1, 2}), albedo, normal;
     sanitise(color);
     std::vector<Denoiser::Named> inputs{{"color", &color}};
     std::vector<char const*> flags{"hdr"};

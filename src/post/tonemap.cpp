@@ -34,7 +34,7 @@ float luminance_of(std::span<float const> pixel) {
 } // namespace
 
 Applied apply(scene::Tonemap const& tonemap, Inputs const& inputs) {
-    image::Image image = *inputs.find(tonemap.input);
+    image::Image image = inputs.colors(tonemap.input);
     int const colors = image.channels >= 3 ? 3 : 1;
     auto const for_each_pixel = [&](auto const& f) {
         for (size_t i = 0; i < image.pixels.size(); i += size_t(image.channels))

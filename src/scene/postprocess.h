@@ -50,8 +50,9 @@ struct Denoising {
     static constexpr schema::TypeInfo info{
         .category = "postprocess",
         .type = "denoising",
-        .help = "Takes the noise out of a picture. Pictures of the albedo and the normals of the "
-                "same scene tell it which edges are real.",
+        .help =
+            "Takes the noise out of a picture. Albedo and normals of the same scene, as AOVs of "
+            "the picture or pictures of their own, tell it which edges are real.",
         .example =
             "<postprocess type=\"denoising\">\n  <ref name=\"input\" id=\"noisy\"/>\n"
             "  <ref name=\"albedo\" id=\"albedo\"/>\n  <ref name=\"normal\" id=\"normal\"/>\n"
@@ -67,12 +68,13 @@ struct Denoising {
         f("input", input,
           {.required = true, .help = "The picture with noise, made before this one."});
         f("albedo", albedo,
-          {.help = "What the `albedo` integrator draws of the same scene.",
+          {.help = "What the `albedo` integrator draws of the same scene; without it the AOV "
+                   "`denoise_albedo` or `albedo` of the input.",
            .aliases = {"albedos"}});
         f("normal", normal,
           {.help = "What the `normal` integrator draws of the same scene; (n + 1) / 2 where no "
-                   "value is negative, else n. Is used only together with the albedo by `oidn` "
-                   "and `network`.",
+                   "value is negative, else n; without it the AOV `denoise_normal` or `normal` of "
+                   "the input. Is used only together with the albedo by `oidn` and `network`.",
            .aliases = {"normals"}});
         f("image", image, {.required = true, .help = "The picture to write."});
         f("backend", backend,

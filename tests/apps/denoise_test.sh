@@ -40,7 +40,7 @@ cmp -s clean.exr alone/one.exr || fail "one.exr is not the last picture"
 expect 0 "$weft" render s.xml -o alone/one.png -o folder --progress none
 [ -s alone/one.png ] || fail "one.png is missing"
 expect 2 "$weft" render s.xml -o alone/one.png --aov depth
-has "for the picture of a postprocess, which has none" err
+has "can hold further channels (.exr), found 'alone/one.png'" err
 sed '/<postprocess/,$d' s.xml >several.xml
 expect 2 "$weft" render several.xml -o one.exr
 has "-o expects an existing folder, since the scene renders several pictures ('noisy', 'albedo', 'normal'); found 'one.exr'" err

@@ -73,6 +73,27 @@ for what in "pixel data origin: x=4, y=2" "full/display size" "chromaticities" "
     [ "$(iinfo -v crop.exr | grep -F "$what")" = "$(iinfo -v bloomed.exr | grep -F "$what")" ] ||
         fail "a bloom changed '$what'"
 done
+# So it is with postprocesses of a scene, one after the other.
+sed 's|depth=|aovs="alpha,depth,crypto_object" depth=|' bloom.xml >kept.xml
+grep -q aovs kept.xml || fail "the scene has no AOVs"
+echo '<postprocess type="denoising" backend="nlm"><ref name="input" id="bloomed"/><image id="kept"/></postprocess>' >>kept.xml
+expect 0 "$weft" render kept.xml -o kept.exr --crop 4,2,20,14 --progress none
+grep -q AOVs err && fail "AOVs are not written"
+for what in "pixel data origin: x=4, y=2" "full/display size" "chromaticities" "cryptomatte/"; do
+    [ "$(iinfo -v crop.exr | grep -F "$what")" = "$(iinfo -v kept.exr | grep -F "$what")" ] ||
+        fail "a postprocess changed '$what'"
+done
+expect 0 "$weft" compare kept.exr crop.exr
+has "the same: A, " out
+has "bloom (glare), denoising (nlm)" <(iinfo -v kept.exr)
+expect 0 "$weft" render kept.xml -o kept.png --crop 4,2,20,14 --progress none
+has "AOVs that the scene asks for are not written" err
+# A file that a postprocess reads keeps its windows and channels, too.
+echo '<postprocess type="bloom"><image name="input" filename="crop.exr"/><image id="again"/></postprocess>' >file.xml
+expect 0 "$weft" render file.xml -o again.exr
+expect 0 "$weft" compare again.exr crop.exr
+has "the same: A, " out
+has "pixel data origin: x=4, y=2" <(iinfo -v again.exr)
 expect 0 "$weft" compare bloomed.exr crop.exr
 has "the same: A, " out
 oiiotool plain.exr --ch R,G,B,A=1 -o alpha.exr
@@ -81,10 +102,20 @@ has "A: the picture lacks it" out
 oiiotool plain.exr --ch R,G,B,A=0.5 -o clear.exr && oiiotool plain.exr --ch R,G,B,A=1 -o opaque.exr
 expect 1 "$weft" compare clear.exr opaque.exr --mse 1e-6
 expect 0 "$weft" compare clear.exr opaque.exr --mse 1e-6 --channels RGB
-oiiotool plain.exr plain.exr --siappend -o parts.exr
-expect 2 "$weft" bloom parts.exr -o a.exr
-has "expected a file of one part, found 2" err
+# Parts of a file are layers: the picture is found by its name, and all others arrive.
+expect 0 "$weft" bloom plain.exr -o a.exr --strength 0.3
+oiiotool plain.exr --attrib oiio:subimagename albedo a.exr --attrib oiio:subimagename rgba \
+    plain.exr --attrib oiio:subimagename N --siappendall -o parts.exr
+expect 0 "$weft" bloom parts.exr -o more.exr --strength 0.3
+expect 1 "$weft" compare more.exr parts.exr --mae 0
+has "albedo.R, albedo.G, albedo.B" out
+expect 0 "$weft" display parts.exr -o a.png --layer albedo
+expect 0 "$weft" display plain.exr -o b.png
+cmp -s a.png b.png || fail "the layer looks otherwise than the picture that it is"
+expect 2 "$weft" display parts.exr -o a.png --layer albeda
+has "did you mean 'albedo'" err
 expect 1 "$weft" compare plain.exr parts.exr
+has "the picture lacks it" out
 expect 2 "$weft" bloom plain.exr -o a.exr --kind glare --sigma 3
 has "--sigma" err
 expect 2 "$weft" bloom plain.png -o a.exr

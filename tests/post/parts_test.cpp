@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "post/denoise_parts.h"
-#include "post/layers.h"
 #include "tests/post/pictures.h"
 
 namespace weft::post {
@@ -48,51 +47,6 @@ TEST(DenoisedParts, OfBlackAreBlack) {
     options.backend = Backend::nlm;
     for (auto const& part : denoise_parts(parts, {}, options).parts)
         for (float x : part.pixels) EXPECT_EQ(x, 0);
-}
-
-TEST(Layers, AreFoundByTheirNames) {
-    std::vector<std::string> const channels{"A",        "B",        "G",     "R",   "albedo.B",
-                                            "albedo.G", "albedo.R", "N.X",   "N.Y", "N.Z",
-                                            "depth.Z",  "half.R",   "half.G"};
-    EXPECT_EQ(find_layer(channels, ""), (ChannelTriple{3, 2, 1}));
-    EXPECT_EQ(find_layer(channels, "albedo"), (ChannelTriple{6, 5, 4}));
-    EXPECT_EQ(find_layer(channels, "N"), (ChannelTriple{7, 8, 9}));
-    EXPECT_FALSE(find_layer(channels, "half"));
-    EXPECT_FALSE(find_layer(channels, "depth"));
-    EXPECT_EQ(layer_names(channels), (std::vector<std::string>{"albedo", "N"}));
-    EXPECT_EQ(find_albedo_layer(channels), "albedo");
-    EXPECT_EQ(find_normal_layer(channels), "N");
-    EXPECT_FALSE(find_layer({"x", "y", "z"}, ""));
-
-    auto with = [](std::string const& layer, std::string const& components) {
-        std::vector<std::string> names{"R", "G", "B"};
-        for (char c : components) names.push_back(layer + "." + c);
-        return names;
-    };
-    for (char const* name : {"ViewLayer.Denoising Albedo", "denoise_albedo", "Albedo"})
-        EXPECT_EQ(find_albedo_layer(with(name, "RGB")), name);
-    for (char const* name :
-         {"ViewLayer.Denoising Normal", "Ns", "normal", "sh_normal", "Normals"}) {
-        EXPECT_EQ(find_normal_layer(with(name, "XYZ")), name);
-        EXPECT_EQ(find_normal_layer(with(name, "rgb")), name);
-    }
-    EXPECT_EQ(find_albedo_layer({"albedo.R", "albedo.G", "albedo.B", "denoise_albedo.R",
-                                 "denoise_albedo.G", "denoise_albedo.B"}),
-              "denoise_albedo");
-    EXPECT_EQ(find_kept_layer(with("x.denoise_kept", "RGB")), "x.denoise_kept");
-    EXPECT_EQ(find_kept_layer(with("emission", "RGB")), "") << "which may be out of focus";
-    EXPECT_EQ(find_albedo_layer(with("diffuse", "RGB")), "");
-    EXPECT_EQ(find_normal_layer({"R", "G", "B"}), "");
-}
-
-TEST(Layers, AreTakenAndPutBack) {
-    image::Image all = image::make_image(2, 1, 4);
-    all.pixels = {1, 2, 3, 4, 5, 6, 7, 8};
-    EXPECT_EQ(take_channels(all, {3, 0, 1}).pixels, (std::vector<float>{4, 1, 2, 8, 5, 6}));
-    image::Image three = image::make_image(2, 1, 3);
-    three.pixels = {-1, -2, -3, -4, -5, -6};
-    put_channels(three, {2, 1, 3}, all);
-    EXPECT_EQ(all.pixels, (std::vector<float>{1, -2, -1, -3, 5, -5, -4, -6}));
 }
 
 } // namespace

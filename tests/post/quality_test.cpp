@@ -5,7 +5,7 @@
 #include <iostream>
 
 #include "image/compare.h"
-#include "post/layers.h"
+#include "image/layers.h"
 #include "post/network.h"
 #include "post/weights.h"
 #include "session/render.h"
@@ -53,7 +53,7 @@ TEST_P(DenoisingQuality, LittleNoiseIsLeft) {
         std::string(WEFT_SOURCE_DIR) + "/tests/post/references/" + GetParam().name + ".exr");
     image::Image const rendered = render();
     auto layer = [&](std::string const& name) {
-        return take_channels(rendered, find_layer(rendered.names, name).value());
+        return image::take_channels(rendered, image::find_layer(rendered.names, name).value());
     };
     image::Image const noisy = layer(""), albedo = layer("denoise_albedo"),
                        normal = layer("denoise_normal"), kept = layer("denoise_kept");

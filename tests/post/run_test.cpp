@@ -26,7 +26,8 @@ Pictures pictures_for(io::SceneFile const& file, image::Image const& color,
                       image::Image const& guide) {
     Pictures pictures;
     for (size_t i = 0; i < 3; ++i)
-        pictures[file.jobs[i].target.image.index] = {i == 0 ? color : guide, {{"Owner", "me"}}};
+        pictures[file.jobs[i].target.image.index] = {
+            i == 0 ? color : guide, {.texts = {{"Owner", "me"}}}, {}};
     return pictures;
 }
 
@@ -40,7 +41,7 @@ TEST(Run, DenoisesWhatTheFileNames) {
     DenoiseOptions options;
     options.backend = Backend::nlm;
     EXPECT_EQ(result.image.pixels, denoise({&color, &guide, &normals}, options).image.pixels);
-    EXPECT_EQ(result.metadata,
+    EXPECT_EQ(result.header.texts,
               (image::Metadata{{"Owner", "me"}, {"weft:postprocess", "denoising (nlm)"}}));
 }
 
@@ -56,7 +57,7 @@ TEST(Run, NotesEachStep) {
         pictures[scene::pictures_of(job.postprocess).output.index] = std::move(made);
     }
     auto const last = scene::pictures_of(file.postprocesses[1].postprocess).output;
-    EXPECT_EQ(pictures.at(last.index).metadata.at("weft:postprocess"),
+    EXPECT_EQ(pictures.at(last.index).header.texts.at("weft:postprocess"),
               "denoising (nlm), denoising (nlm)");
 }
 

@@ -5,6 +5,7 @@
 #include "apps/weft/commands.h"
 #include "apps/weft/display_options.h"
 #include "apps/weft/picture_file.h"
+#include "image/layers.h"
 #include "image/rewrite.h"
 #include "post/bloom.h"
 
@@ -13,7 +14,7 @@ namespace weft::apps {
 namespace {
 
 struct BloomArguments {
-    std::string picture;
+    std::string picture, layer;
     std::vector<std::string> outputs;
     OptionTexts bloom, display;
 };
@@ -29,18 +30,30 @@ scene::Bloom bloom_of(OptionTexts const& texts) {
     return bloom;
 }
 
+/// Returns the picture with bloom on its colours, all other channels as they were.
+image::Image with_bloom(BloomArguments const& a, scene::Bloom const& bloom,
+                        image::Image const& light) {
+    auto const colors =
+        a.layer.empty() ? image::find_colors(light.names) : image::find_layer(light.names, a.layer);
+    if (!colors && a.layer.empty()) return post::apply_bloom(bloom, light);
+    if (!colors) layer_of(a.picture, light, a.layer); // tells which there are
+    image::Image result = light;
+    image::put_channels(post::apply_bloom(bloom, image::take_channels(light, colors.value())),
+                        *colors, result);
+    return result;
+}
+
 int run(BloomArguments const& a) {
     scene::Bloom const bloom = bloom_of(a.bloom);
     post::DisplayChain const chain = display_chain(a.display);
     print_warning(chain);
     for (std::string const& path : a.outputs) image::check_writable(path);
-    refuse_parts(a.picture);
     image::Image const light = read_picture(a.picture);
     if (light.is_srgb_encoded)
         throw InputError({a.picture},
                          "expected a picture of light (.exr, .hdr), found screen colours, in which "
                          "what is bright is clipped");
-    image::Image const bloomed = post::apply_bloom(bloom, light);
+    image::Image const bloomed = with_bloom(a, bloom, light);
     image::Metadata metadata = image::read_metadata(a.picture);
     std::erase_if(metadata, [](auto const& m) { return !m.first.starts_with("weft:"); });
     metadata["Software"] = "Weft " WEFT_VERSION;
@@ -67,6 +80,11 @@ void add_bloom_command(CLI::App& app, Command& chosen) {
     c->add_option("picture", a->picture, "The picture, scene-linear: .exr, .hdr")
         ->required()
         ->type_name("IN");
+    c->add_option(
+         "--layer", a->layer,
+         "Layer or part of IN that is the picture; without it R, G and B, or what is called "
+         "as a picture usually is: Combined, rgba, beauty")
+        ->type_name("LAYER");
     c->add_option("-o,--output", a->outputs,
                   "Picture to write: .exr, .hdr, .png, .jpg, .tif; may be given several times")
         ->required()

@@ -51,7 +51,7 @@ Offer offer_of(std::string const& word) {
             "VECTOR2", "X",      "TIME",        "SIZE",
             "WxH|P%",  "x,y",    "x0,y0,x1,y1", "PATH.PARAM=VALUE",
             "K/N",     "A:B",    "HOST:PORT",   "LAYER,...",
-            "NAMES"}))
+            "LAYER",   "NAMES"}))
         return AnyText{};
     throw std::logic_error("offer_of has no row for values that help calls " + word);
 }

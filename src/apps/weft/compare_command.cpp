@@ -12,6 +12,7 @@
 #include "base/color.h"
 #include "image/atomic_file.h"
 #include "image/compare.h"
+#include "image/layers.h"
 #include "image/write.h"
 #include "post/flip.h"
 
@@ -60,36 +61,43 @@ bool is_ldr(image::Image const& a, image::Image const& b) {
     return a.is_srgb_encoded && b.is_srgb_encoded;
 }
 
-/// Adds the parts of two files after the first, whose channels are called PART.CHANNEL.
-void compare_parts(std::string const& a, std::string const& b,
+/// A picture, and where it comes from.
+struct Compared {
+    std::string path;
+    image::Image image;
+};
+
+/// Adds the parts that are not in the images, whose channels are called PART.CHANNEL.
+void compare_apart(Compared const& a, Compared const& b,
                    std::vector<image::ChannelDifference>& to) {
-    std::vector<std::string> const parts_a = image::part_names(a), parts_b = image::part_names(b);
-    auto const name_of = [](std::vector<std::string> const& parts, size_t i) {
-        return i >= parts.size() || parts[i].empty() ? fmt::format("part {}", i + 1) : parts[i];
+    auto const has = [](Compared const& c, std::string const& part) {
+        return std::find(c.image.apart.begin(), c.image.apart.end(), part) != c.image.apart.end();
     };
-    for (size_t i = 1; i < std::max(parts_a.size(), parts_b.size()); ++i) {
-        if (i >= parts_a.size()) {
-            to.push_back({name_of(parts_b, i), false, true, {}});
-        } else if (i >= parts_b.size()) {
-            to.push_back({name_of(parts_a, i), true, false, {}});
-        } else {
-            image::Image const of_a = image::read_image(a, int(i)),
-                               of_b = image::read_image(b, int(i));
-            for (auto& c : image::compare_channels(of_a, of_b, true)) {
-                c.name = name_of(parts_b, i) + "." + c.name;
-                to.push_back(std::move(c));
-            }
+    for (std::string const& part : b.image.apart) {
+        if (!has(a, part)) {
+            to.push_back({part, false, true, {}});
+            continue;
+        }
+        for (auto& c : image::compare_channels(image::read_part(a.path, part),
+                                               image::read_part(b.path, part), true)) {
+            c.name = part + "." + c.name;
+            to.push_back(std::move(c));
         }
     }
+    for (std::string const& part : a.image.apart)
+        if (!has(b, part)) to.push_back({part, true, false, {}});
 }
 
 /// Compares the colours of two pictures, and all other channels.
-Comparison compare(image::Image const& a, image::Image const& b, bool with_flip) {
-    Comparison result{image::compare(a, b), image::compare_channels(a, b), {}};
+Comparison compare(Compared const& a, Compared const& b, bool with_flip) {
+    Comparison result{
+        image::compare(a.image, b.image), image::compare_channels(a.image, b.image), {}};
+    compare_apart(a, b, result.others);
     if (!with_flip) return result;
-    image::Image const test = light_of(a), reference = light_of(b);
-    result.flip =
-        is_ldr(a, b) ? post::ldr_flip(reference, test) : post::hdr_flip(reference, test).errors;
+    image::Image const test = light_of(image::colors_of(a.image)),
+                       reference = light_of(image::colors_of(b.image));
+    result.flip = is_ldr(a.image, b.image) ? post::ldr_flip(reference, test)
+                                           : post::hdr_flip(reference, test).errors;
     return result;
 }
 
@@ -156,7 +164,7 @@ Report make_report(bool ldr) {
 
 ReportPicture report_picture(std::string const& path, image::Image const& image,
                              Comparison const* c) {
-    ReportPicture picture{path, light_of(image), {}, {}};
+    ReportPicture picture{path, light_of(image::colors_of(image)), {}, {}};
     if (!c) return picture;
     image::Difference const& d = c->difference;
     picture.metrics = {
@@ -197,31 +205,31 @@ void check(CompareArguments const& args) {
 int run(CompareArguments const& args) {
     check(args);
     bool const with_flip = !args.report.empty() || args.flip >= 0;
-    image::Image const reference = image::read_image(args.pictures.back());
+    Compared const reference{args.pictures.back(), image::read_image(args.pictures.back())};
     Report report;
     bool passed = true;
     for (size_t i = 0; i + 1 < args.pictures.size(); ++i) {
-        image::Image const picture = image::read_image(args.pictures[i]);
-        warn_of_words(args.pictures[i], picture);
-        bool const ldr = is_ldr(picture, reference);
-        if (picture.is_srgb_encoded != reference.is_srgb_encoded)
+        Compared const picture{args.pictures[i], image::read_image(args.pictures[i])};
+        warn_of_words(picture.path, picture.image);
+        bool const ldr = is_ldr(picture.image, reference.image);
+        if (picture.image.is_srgb_encoded != reference.image.is_srgb_encoded)
             fmt::print(stderr,
                        "warning: one of {} and {} holds screen colours and the other light; their "
                        "numbers are compared as they are\n",
-                       args.pictures[i], args.pictures.back());
-        if (args.pictures.size() > 2) fmt::print("{}{}\n", i ? "\n" : "", args.pictures[i]);
+                       picture.path, reference.path);
+        if (args.pictures.size() > 2) fmt::print("{}{}\n", i ? "\n" : "", picture.path);
         Comparison c = compare(picture, reference, with_flip);
-        compare_parts(args.pictures[i], args.pictures.back(), c.others);
         keep_wanted(args.channels, c);
         print(c, ldr);
         passed = passes(args, c) && passed;
-        if (!args.difference.empty()) write_difference(args, picture, reference, c.difference.max);
+        if (!args.difference.empty())
+            write_difference(args, picture.image, reference.image, c.difference.max);
         if (args.report.empty()) continue;
         if (report.pictures.empty()) report = make_report(ldr);
-        report.pictures.push_back(report_picture(args.pictures[i], picture, &c));
+        report.pictures.push_back(report_picture(picture.path, picture.image, &c));
     }
     if (!args.report.empty()) {
-        report.pictures.push_back(report_picture(args.pictures.back(), reference, nullptr));
+        report.pictures.push_back(report_picture(reference.path, reference.image, nullptr));
         write_report(args.report, report);
         fmt::print("{}\n", args.report);
     }

@@ -8,10 +8,10 @@
 #include "apps/weft/picture_file.h"
 #include "apps/weft/progress_line.h"
 #include "base/color.h"
+#include "image/layers.h"
 #include "image/rewrite.h"
 #include "image/write.h"
 #include "post/denoise_parts.h"
-#include "post/layers.h"
 #include "schema/text.h"
 
 namespace weft::apps {
@@ -22,7 +22,7 @@ namespace {
 
 struct DenoiseArguments {
     std::string input, output;
-    std::string albedo, normal;
+    std::string layer, albedo, normal;
     std::vector<std::string> parts, keep;
     std::string backend = "auto", quality = "high";
     post::DenoiseOptions options;
@@ -40,15 +40,15 @@ image::Image read_linear(std::string const& path) {
     return image;
 }
 
-post::ChannelTriple colors_of(std::string const& path, image::Image const& image) {
-    if (auto const found = post::find_layer(image.names, "")) return *found;
+image::ChannelTriple colors_of(std::string const& path, image::Image const& image) {
+    if (auto const found = image::find_colors(image.names)) return *found;
     throw InputError({path}, "expected the channels R, G and B, found " + list(image.names));
 }
 
-post::ChannelTriple layer_of(std::string const& path, image::Image const& image,
-                             std::string const& layer, char const* what = "layer") {
-    if (auto const found = post::find_layer(image.names, layer)) return *found;
-    auto const layers = post::layer_names(image.names);
+image::ChannelTriple channels_of(std::string const& path, image::Image const& image,
+                                 std::string const& layer, char const* what = "layer") {
+    if (auto const found = image::find_layer(image.names, layer)) return *found;
+    auto const layers = image::layer_names(image.names);
     throw InputError({path},
                      std::string("expected a ") + what + " '" + layer + "' of three channels" +
                          (layers.empty() ? ", found no layers" : suggestion(layer, layers)));
@@ -59,16 +59,16 @@ post::ChannelTriple layer_of(std::string const& path, image::Image const& image,
 image::Image guide(DenoiseArguments const& a, image::Image const& image, char const* what,
                    std::string const& text, std::string const& usual) {
     if (text == "none" || (text.empty() && usual.empty())) return {};
-    if (text.empty() || post::find_layer(image.names, text) || !fs::exists(text))
-        return post::take_channels(
-            image, layer_of(a.input, image, text.empty() ? usual : text, "file or a layer"));
+    if (text.empty() || image::find_layer(image.names, text) || !fs::exists(text))
+        return image::take_channels(
+            image, channels_of(a.input, image, text.empty() ? usual : text, "file or a layer"));
     image::Image const file = read_linear(text);
     if (file.width != image.width || file.height != image.height)
         throw InputError({text},
                          fmt::format("the {} expects the size of the picture, {} x {}, "
                                      "found {} x {}",
                                      what, image.width, image.height, file.width, file.height));
-    return post::take_channels(file, colors_of(text, file));
+    return image::take_channels(file, colors_of(text, file));
 }
 
 /// With "light_*" as all layers that begin so.
@@ -78,7 +78,7 @@ std::vector<std::string> expanded(std::vector<std::string> const& parts,
     for (std::string const& part : parts) {
         size_t const before = layers.size();
         if (part.ends_with('*'))
-            for (std::string const& layer : post::layer_names(channels))
+            for (std::string const& layer : image::layer_names(channels))
                 if (layer.starts_with(part.substr(0, part.size() - 1))) layers.push_back(layer);
         if (layers.size() == before) layers.push_back(part);
     }
@@ -90,7 +90,7 @@ image::Image sum_of(DenoiseArguments const& a, image::Image const& image,
                     std::vector<std::string> const& layers) {
     image::Image sum;
     for (std::string const& layer : layers) {
-        image::Image const one = post::take_channels(image, layer_of(a.input, image, layer));
+        image::Image const one = image::take_channels(image, channels_of(a.input, image, layer));
         if (sum.pixels.empty()) sum = image::make_image(image.width, image.height, 3);
         for (size_t i = 0; i < sum.pixels.size(); ++i) sum.pixels[i] += one.pixels[i];
     }
@@ -101,7 +101,7 @@ image::Image sum_of(DenoiseArguments const& a, image::Image const& image,
 std::vector<std::string> kept_layers(DenoiseArguments const& a, image::Image const& image) {
     if (a.keep == std::vector<std::string>{"none"}) return {};
     if (!a.keep.empty()) return expanded(a.keep, image.names);
-    std::string const usual = post::find_kept_layer(image.names);
+    std::string const usual = image::find_kept_layer(image.names);
     return usual.empty() ? std::vector<std::string>() : std::vector{usual};
 }
 
@@ -125,7 +125,8 @@ void check_sum(DenoiseArguments const& a, image::Image const& color,
 }
 
 /// Writes the channels back where they come from, all else as it was.
-void write(DenoiseArguments const& a, image::Image const& image, post::Backend backend) {
+void write(DenoiseArguments const& a, image::Image const& image, image::ChannelTriple const& colors,
+           post::Backend backend) {
     image::Metadata const more{
         {"weft:postprocess", fmt::format("denoising ({})", post::backend_name(backend))}};
     bool const exr = image::is_exr(a.output) && image::is_exr(a.input);
@@ -138,9 +139,7 @@ void write(DenoiseArguments const& a, image::Image const& image, post::Backend b
         metadata["Software"] = "Weft " WEFT_VERSION;
         metadata.insert(more.begin(), more.end());
         image::write_image(
-            a.output,
-            image.channels <= 4 ? image : post::take_channels(image, colors_of(a.input, image)),
-            metadata);
+            a.output, image.channels <= 4 ? image : image::take_channels(image, colors), metadata);
     }
     fmt::print("{}\n", a.output);
 }
@@ -149,14 +148,14 @@ int run(DenoiseArguments& a) {
     image::check_writable(a.output);
     schema::TextForm<post::Backend>::read(a.backend, a.options.backend);
     schema::TextForm<post::Quality>::read(a.quality, a.options.quality);
-    refuse_parts(a.input);
     image::Image image = read_linear(a.input);
-    auto const colors = colors_of(a.input, image);
-    image::Image const color = post::take_channels(image, colors);
+    auto const colors =
+        a.layer.empty() ? colors_of(a.input, image) : channels_of(a.input, image, a.layer);
+    image::Image const color = image::take_channels(image, colors);
     image::Image const albedo =
-        guide(a, image, "albedo", a.albedo, post::find_albedo_layer(image.names));
+        guide(a, image, "albedo", a.albedo, image::find_albedo_layer(image.names));
     image::Image const normal = post::unpack_normals(
-        guide(a, image, "normal", a.normal, post::find_normal_layer(image.names)));
+        guide(a, image, "normal", a.normal, image::find_normal_layer(image.names)));
     image::Image const kept = sum_of(a, image, kept_layers(a, image));
     post::DenoiseInput const input{&color, albedo.pixels.empty() ? nullptr : &albedo,
                                    normal.pixels.empty() ? nullptr : &normal,
@@ -164,7 +163,7 @@ int run(DenoiseArguments& a) {
     a.parts = expanded(a.parts, image.names);
     std::vector<image::Image> parts;
     for (std::string const& layer : a.parts)
-        parts.push_back(post::take_channels(image, layer_of(a.input, image, layer)));
+        parts.push_back(image::take_channels(image, channels_of(a.input, image, layer)));
     if (!parts.empty()) check_sum(a, color, parts);
 
     auto const start = std::chrono::steady_clock::now();
@@ -174,17 +173,17 @@ int run(DenoiseArguments& a) {
         post::Denoised const result = post::denoise(input, a.options);
         backend = result.backend;
         lacks_weights = result.lacks_weights;
-        post::put_channels(result.image, colors, image);
+        image::put_channels(result.image, colors, image);
     } else {
         post::DenoisedParts const result = post::denoise_parts(parts, input, a.options);
         backend = result.backend;
         lacks_weights = result.lacks_weights;
-        post::put_channels(result.whole, colors, image);
+        image::put_channels(result.whole, colors, image);
         for (size_t i = 0; i < parts.size(); ++i)
-            post::put_channels(result.parts[i], layer_of(a.input, image, a.parts[i]), image);
+            image::put_channels(result.parts[i], channels_of(a.input, image, a.parts[i]), image);
     }
     std::chrono::duration<double> const seconds = std::chrono::steady_clock::now() - start;
-    write(a, image, backend);
+    write(a, image, colors, backend);
     if (lacks_weights)
         fmt::print(stderr, "warning: the network's weights for high quality are not there; this is "
                            "balanced quality: tools/setup denoise downloads them\n");
@@ -208,6 +207,11 @@ void add_denoise_command(CLI::App& app, Command& chosen) {
                   "File to write; as EXR it has all layers and the header of IN")
         ->required()
         ->type_name("OUT");
+    c->add_option(
+         "--layer", a->layer,
+         "Layer or part of IN that is the picture; without it R, G and B, or what is called "
+         "as a picture usually is: Combined, rgba, beauty")
+        ->type_name("LAYER");
     c->add_option("--albedo", a->albedo, "Layer of IN, or another file, with the albedo; or none")
         ->type_name("LAYER|FILE");
     c->add_option("--normal", a->normal, "Layer of IN, or another file, with normals; or none")

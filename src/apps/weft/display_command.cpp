@@ -11,7 +11,7 @@ namespace weft::apps {
 namespace {
 
 struct DisplayArguments {
-    std::string picture;
+    std::string picture, layer;
     std::vector<std::string> outputs;
     bool list_views = false;
     OptionTexts display;
@@ -58,6 +58,7 @@ int run(DisplayArguments const& a) {
     for (std::string const& path : a.outputs) image::check_writable(path);
     image::Image image = read_picture(a.picture);
     if (image.is_srgb_encoded) decode(image);
+    if (!a.layer.empty()) image = layer_of(a.picture, image, a.layer);
     for (std::string const& path : a.outputs) {
         post::write_picture(path, image, chain, {{"Software", "Weft " WEFT_VERSION}});
         fmt::print("{}\n", path);
@@ -85,6 +86,11 @@ void add_display_command(CLI::App& app, Command& chosen) {
         "view of an OpenColorIO configuration)");
     c->add_option("picture", a->picture, "The picture: .exr, .hdr; others are decoded from sRGB")
         ->type_name("IN");
+    c->add_option(
+         "--layer", a->layer,
+         "Layer or part of IN to show; without it R, G and B, or what is called as a picture "
+         "usually is: Combined, rgba, beauty")
+        ->type_name("LAYER");
     c->add_option("-o,--output", a->outputs,
                   "Picture to write: .png, .jpg, .tif; may be given several times")
         ->type_name("OUT")

@@ -44,7 +44,7 @@ int run(MergeArguments const& a) {
         header.texts["weft:renderSeconds"] = fmt::format("{:.3f}", whole.seconds);
     report_bad_samples(whole.bad_samples, whole.first_bad_samples, header.texts["weft:seed"]);
     warn_of_aovs(a, whole.film.layout());
-    write_films(a.outputs, whole.film, header, chain);
+    write_pictures(a.outputs, {whole.film.image(), header, {}}, chain);
     fmt::print(stderr, "{} x {} pixels, {} samples each, of {} parts\n",
                whole.film.region().width(), whole.film.region().height(), whole.samples, count);
     return kDone;

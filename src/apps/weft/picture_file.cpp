@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "film/cryptomatte.h"
+#include "image/layers.h"
+#include "image/rewrite.h"
 #include "image/write.h"
 #include "schema/text.h"
 
@@ -57,15 +59,31 @@ std::array<float, 16> world_to_camera(scene::Camera const& camera) {
     return rows;
 }
 
-/// Returns the channels of `image` that have these names.
-image::Image select(image::Image const& image, std::vector<std::string> const& names) {
-    image::Image result = image::make_image(image.width, image.height, int(names.size()));
-    for (size_t c = 0; c < names.size(); ++c) {
-        auto const at = std::find(image.names.begin(), image.names.end(), names[c]);
-        size_t const from = size_t(at - image.names.begin());
-        for (size_t i = 0; i < result.pixels.size() / names.size(); ++i)
-            result.pixels[i * names.size() + c] = image.pixels[i * size_t(image.channels) + from];
-    }
+/// Returns the colours of a picture, and their alpha where there is one. A picture without colours
+/// that are called so is all colours.
+image::Image colors(image::Image const& image) {
+    auto const found = image::find_colors(image.names);
+    if (!found) return image;
+    std::string const& red = image.names[size_t((*found)[0])];
+    auto const alpha =
+        std::find(image.names.begin(), image.names.end(), red.substr(0, red.rfind('.') + 1) + "A");
+    image::Image const three = image::take_channels(image, *found);
+    if (alpha == image.names.end()) return three;
+    image::Image result = image::make_image(image.width, image.height, 4);
+    image::put_channels(three, {0, 1, 2}, result);
+    for (size_t i = 0; i < result.pixels.size() / 4; ++i)
+        result.pixels[4 * i + 3] =
+            image.pixels[i * size_t(image.channels) + size_t(alpha - image.names.begin())];
+    return result;
+}
+
+/// Returns the texts of a header that belong into files of any kind.
+image::Metadata plain_texts(image::ExrHeader const& header) {
+    image::Metadata result;
+    for (char const* key :
+         {"Software", "weft:seed", "weft:samplesPerPixel", "weft:stoppedBy", "weft:complete",
+          "weft:noise", "weft:meanSamplesPerPixel", "weft:postprocess"})
+        if (auto const at = header.texts.find(key); at != header.texts.end()) result.insert(*at);
     return result;
 }
 
@@ -96,12 +114,13 @@ std::string channels_text(scene::AovInfo const& info) {
 
 } // namespace
 
-void refuse_parts(std::string const& path) {
-    std::vector<std::string> const parts = image::part_names(path);
-    if (parts.size() > 1)
-        throw InputError({path}, fmt::format("expected a file of one part, found {} ({}): their "
-                                             "channels have to be joined in one part first",
-                                             parts.size(), fmt::join(parts, ", ")));
+image::Image layer_of(std::string const& path, image::Image const& image,
+                      std::string const& layer) {
+    try {
+        return image::take_layer(image, layer);
+    } catch (InputError const& e) {
+        throw InputError({path}, e.what());
+    }
 }
 
 void warn_of_words(std::string const& path, image::Image const& image) {
@@ -111,8 +130,6 @@ void warn_of_words(std::string const& path, image::Image const& image) {
 
 image::Image read_picture(std::string const& path) {
     image::Image image = image::read_image(path);
-    if (size_t const parts = image::part_names(path).size(); parts > 1)
-        image.warnings.push_back(fmt::format("of its {} parts the first is looked at", parts));
     warn_of_words(path, image);
     return image;
 }
@@ -146,31 +163,22 @@ image::ExrHeader picture_header(session::RenderResult const& r, session::Plan co
     return header;
 }
 
-image::Metadata plain_texts(image::ExrHeader const& header) {
-    image::Metadata result;
-    for (char const* key : {"Software", "weft:seed", "weft:samplesPerPixel", "weft:stoppedBy",
-                            "weft:complete", "weft:noise", "weft:meanSamplesPerPixel"})
-        if (auto const at = header.texts.find(key); at != header.texts.end()) result.insert(*at);
-    return result;
-}
-
-void write_film(std::string const& path, film::Film const& film, image::ExrHeader const& header,
-                post::DisplayChain const& chain) {
-    if (image::is_exr(path))
-        image::write_described_exr(path, film.image(), header);
-    else if (film.layout().has(film::Aov::alpha))
-        post::write_picture(path, select(film.image(), {"R", "G", "B", "A"}), chain,
-                            plain_texts(header));
+void write_picture(std::string const& path, post::Picture const& p,
+                   post::DisplayChain const& chain) {
+    if (!image::is_exr(path))
+        post::write_picture(path, colors(p.image), chain, plain_texts(p.header));
+    else if (image::is_exr(p.original))
+        image::rewrite_exr(path, p.original, p.image, p.header.texts);
     else
-        post::write_picture(path, film.mean(), chain, plain_texts(header));
+        image::write_described_exr(path, p.image, p.header);
 }
 
-void write_films(std::vector<std::string> const& paths, film::Film const& film,
-                 image::ExrHeader const& header, post::DisplayChain const& chain) {
+void write_pictures(std::vector<std::string> const& paths, post::Picture const& picture,
+                    post::DisplayChain const& chain) {
     std::exception_ptr failure;
     for (std::string const& path : paths) {
         try {
-            write_film(path, film, header, chain);
+            write_picture(path, picture, chain);
             fmt::print("{}\n", path);
         } catch (image::IoError const&) {
             if (!failure) failure = std::current_exception();

@@ -6,6 +6,7 @@
 
 #include "image/write.h"
 #include "post/display.h"
+#include "post/run.h"
 #include "session/render.h"
 
 namespace weft::apps {
@@ -13,29 +14,26 @@ namespace weft::apps {
 /// Reads a picture and tells on stderr what of its file's words is not followed. Throws InputError.
 image::Image read_picture(std::string const& path);
 
+/// Returns a layer of a picture that was read from `path` (image::take_layer). Throws InputError.
+image::Image layer_of(std::string const& path, image::Image const& image, std::string const& layer);
+
 /// Tells on stderr what of a file's words is not followed.
 void warn_of_words(std::string const& path, image::Image const& image);
-
-/// Throws InputError for a file of several parts, for commands that would lose all but the first.
-void refuse_parts(std::string const& path);
 
 /// Returns what a picture's file says beside its channels: what made it, how far it got, its
 /// camera. `scene_hash` is that of the job's scene.
 image::ExrHeader picture_header(session::RenderResult const& result, session::Plan const& plan,
                                 uint64_t scene_hash, uint32_t seed);
 
-/// Writes a film. An EXR gets all channels of the film and the whole header; any other file the
-/// beauty, with alpha where that was asked for. Throws image::IoError.
-void write_film(std::string const& path, film::Film const& film, image::ExrHeader const& header,
-                post::DisplayChain const& chain);
+/// Writes a picture. An EXR gets all channels and the whole header; any other file the colours,
+/// with alpha where it is there. Throws image::IoError.
+void write_picture(std::string const& path, post::Picture const& picture,
+                   post::DisplayChain const& chain);
 
-/// Writes a film to several files and prints their names. All files that can be written are; then
-/// it throws the error of the first that could not.
-void write_films(std::vector<std::string> const& paths, film::Film const& film,
-                 image::ExrHeader const& header, post::DisplayChain const& chain);
-
-/// Returns the texts of a header that belong into files of any kind.
-image::Metadata plain_texts(image::ExrHeader const& header);
+/// Writes a picture to several files and prints their names. All files that can be written are;
+/// then it throws the error of the first that could not.
+void write_pictures(std::vector<std::string> const& paths, post::Picture const& picture,
+                    post::DisplayChain const& chain);
 
 /// Returns the header as text, for parts of pictures that are joined later.
 std::string header_text(image::ExrHeader const& header);

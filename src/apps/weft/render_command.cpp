@@ -16,14 +16,6 @@ namespace weft::apps {
 
 namespace {
 
-void write_picture(std::vector<std::string> const& paths, post::Picture const& picture,
-                   post::DisplayChain const& chain) {
-    for (std::string const& path : paths) {
-        post::write_picture(path, picture.image, chain, picture.metadata);
-        fmt::print("{}\n", path);
-    }
-}
-
 scene::PictureName const& output_of(io::SceneFile const& file, scene::PostprocessJob const& job) {
     return file.pictures[size_t(scene::pictures_of(job.postprocess).output.index)];
 }
@@ -36,6 +28,21 @@ bool is_read(int32_t picture, std::vector<scene::PostprocessJob>::const_iterator
         return std::any_of(inputs.begin(), inputs.end(),
                            [&](auto const& input) { return input.second.index == picture; });
     });
+}
+
+/// Returns the postprocesses that give a picture other colours, or one that they have made of it.
+std::vector<scene::PostprocessJob> made_of(int32_t picture, io::SceneFile const& file) {
+    std::set<int32_t> family{picture};
+    std::vector<scene::PostprocessJob> jobs;
+    for (scene::PostprocessJob const& job : file.postprocesses) {
+        auto const ids = scene::pictures_of(job.postprocess);
+        for (auto const& [name, id] : ids.inputs)
+            if (name == "input" && family.contains(id.index)) {
+                family.insert(ids.output.index);
+                jobs.push_back(job);
+            }
+    }
+    return jobs;
 }
 
 /// How the file and the options want each picture shown, by ImageId::index; -1: one without an
@@ -96,6 +103,12 @@ int run_file(RenderArguments& a, io::SceneFile const& file, ProgressLine& progre
         int32_t const output = scene::pictures_of(job.postprocess).output.index;
         return output_paths(a, output_of(file, job), is_final(output));
     };
+    auto const later = [&](int32_t image) {
+        std::vector<std::string> paths;
+        for (scene::PostprocessJob const& job : made_of(image, file))
+            for (std::string& path : paths_of(job)) paths.push_back(std::move(path));
+        return paths;
+    };
     if (!whole && !file.postprocesses.empty())
         fmt::print(stderr, "warning: postprocesses need the whole picture and are left out\n");
     for (scene::PostprocessJob const& job : file.postprocesses)
@@ -108,7 +121,7 @@ int run_file(RenderArguments& a, io::SceneFile const& file, ProgressLine& progre
             read_picture_files(file, *next, pictures);
             post::Picture result = post::run(*next, pictures);
             int32_t const output = scene::pictures_of(next->postprocess).output.index;
-            write_picture(paths_of(*next), result, chains.at(output));
+            write_pictures(paths_of(*next), result, chains.at(output));
             pictures[output] = std::move(result);
         }
         std::erase_if(pictures, [&](auto const& p) { return !is_read(p.first, next, file); });
@@ -116,9 +129,10 @@ int run_file(RenderArguments& a, io::SceneFile const& file, ProgressLine& progre
     if (whole) process(0);
     for (size_t i = 0; i < file.jobs.size(); ++i) {
         int32_t const image = file.jobs[i].target.image.index;
-        JobResult made = render_job(
-            a, {file.jobs[i], *file.textures, chains.at(image), is_final(image), only_picture},
-            progress);
+        JobResult made = render_job(a,
+                                    {file.jobs[i], *file.textures, chains.at(image),
+                                     is_final(image), only_picture, later(image)},
+                                    progress);
         if (made.code != kDone) return made.code;
         if (!whole) continue;
         pictures[image] = std::move(made.picture);

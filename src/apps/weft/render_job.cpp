@@ -68,17 +68,15 @@ void check_outputs(std::vector<std::string> const& paths, session::Part const& p
 }
 
 /// Throws InputError, or warns, where no file can hold the AOVs that are wanted.
-void check_aovs(RenderArguments const& a, scene::RenderJob const& job,
-                std::vector<std::string> const& paths) {
+void check_aovs(RenderArguments const& a, JobTask const& task, std::vector<std::string> paths) {
     if (!a.options.picture.part.is_whole()) return;
     bool const wanted =
-        !a.options.picture.aovs.empty() || !session::wanted_aovs(job.integrator).empty();
+        !a.options.picture.aovs.empty() || !session::wanted_aovs(task.job.integrator).empty();
+    paths.insert(paths.end(), task.later.begin(), task.later.end());
     if (!wanted || std::any_of(paths.begin(), paths.end(), image::is_exr)) return;
     if (!a.options.picture.aovs.empty())
-        throw InputError("--aov expects an output that can hold further channels (.exr), found " +
-                         (paths.empty() ? "'" + a.outputs.front() +
-                                              "' for the picture of a postprocess, which has none"
-                                        : "'" + paths.front() + "'"));
+        throw InputError("--aov expects an output that can hold further channels (.exr), found '" +
+                         (paths.empty() ? a.outputs.front() : paths.front()) + "'");
     fmt::print(stderr, "warning: the AOVs that the scene asks for are not written: only .exr files "
                        "hold them\n");
 }
@@ -98,7 +96,7 @@ void check_checkpoint_file(RenderArguments const& a, std::vector<std::string> co
 void check_arguments(RenderArguments const& a, JobTask const& task,
                      std::vector<std::string> const& paths) {
     check_outputs(paths, a.options.picture.part);
-    check_aovs(a, task.job, paths);
+    check_aovs(a, task, paths);
     check_part(a, task.job);
     check_checkpoint_file(a, paths);
     if (!task.is_only && !a.checkpoint.file.empty())
@@ -158,13 +156,11 @@ JobResult finish(Rendering const& r, post::DisplayChain const& chain,
     bool const whole = r.options.picture.part.is_whole();
     progress.phase("write");
     if (whole) {
-        image::ExrHeader const header = r.header(result);
-        write_films(r.paths, result.film, header, chain);
-        made.picture.metadata = plain_texts(header);
+        made.picture = {result.film.image(), r.header(result), {}};
+        write_pictures(r.paths, made.picture, chain);
     }
     print_summary(result, r.plan, r.options);
     progress.done(result);
-    made.picture.image = std::move(result.image);
     if (!whole) write_part(r, std::move(result));
     return made;
 }

@@ -48,6 +48,8 @@ struct JobTask {
     post::DisplayChain const& chain; ///< how its picture is shown
     bool is_final;                   ///< files of -o are for this picture
     bool is_only;                    ///< the scene makes no other picture
+    /// Files of the pictures that postprocesses make of it, with its AOVs.
+    std::vector<std::string> later;
 };
 
 struct JobResult {

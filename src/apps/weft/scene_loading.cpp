@@ -56,7 +56,9 @@ void read_picture_files(io::SceneFile const& file, scene::PostprocessJob const& 
         if (image.is_srgb_encoded && !picture.linear)
             for (float& v : image.pixels) v = image::decoded(image::Transfer::gamma22, v);
         image.is_srgb_encoded = false;
-        pictures[id.index] = {std::move(image), {}};
+        post::Picture& read = pictures[id.index];
+        read.image = std::move(image);
+        read.original = picture.file;
     }
 }
 

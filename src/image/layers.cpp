@@ -1,10 +1,10 @@
-#include "post/layers.h"
+#include "image/layers.h"
 
 #include <algorithm>
 #include <cctype>
 #include <span>
 
-namespace weft::post {
+namespace weft::image {
 
 namespace {
 
@@ -61,6 +61,20 @@ std::vector<std::string> layer_names(std::vector<std::string> const& channels) {
     return layers;
 }
 
+bool is_picture_name(std::string const& layer) {
+    static constexpr char const* names[] = {"combined", "beauty", "rgba",  "rgb",  "c",
+                                            "ci",       "color",  "image", "main", "default"};
+    std::string const last = lower(layer.substr(layer.rfind('.') + 1));
+    return std::find(std::begin(names), std::end(names), last) != std::end(names);
+}
+
+std::optional<ChannelTriple> find_colors(std::vector<std::string> const& channels) {
+    if (auto const plain = find_layer(channels, "")) return plain;
+    for (std::string const& layer : layer_names(channels))
+        if (is_picture_name(layer)) return find_layer(channels, layer);
+    return std::nullopt;
+}
+
 std::string find_albedo_layer(std::vector<std::string> const& channels) {
     static constexpr char const* names[] = {"denoise_albedo", "denoising albedo", "albedo"};
     return find_named(channels, names);
@@ -77,18 +91,47 @@ std::string find_kept_layer(std::vector<std::string> const& channels) {
     return find_named(channels, names);
 }
 
-image::Image take_channels(image::Image const& from, ChannelTriple const& channels) {
-    image::Image result = image::make_image(from.width, from.height, 3);
+Image colors_of(Image const& image) {
+    if (auto const colors = find_colors(image.names)) return take_channels(image, *colors);
+    if (image.channels >= 3) return take_channels(image, {0, 1, 2});
+    Image result = make_image(image.width, image.height, 1);
+    result.is_srgb_encoded = image.is_srgb_encoded;
+    for (size_t i = 0; i < result.pixels.size(); ++i)
+        result.pixels[i] = image.pixels[i * size_t(image.channels)];
+    return result;
+}
+
+Image take_layer(Image const& image, std::string const& layer) {
+    if (auto const three = find_layer(image.names, layer)) return take_channels(image, *three);
+    std::vector<std::string> known;
+    for (size_t i = 0; i < image.names.size(); ++i) {
+        std::string const& name = image.names[i];
+        std::string const of = split(name).layer;
+        if (name == layer || of == layer) {
+            Image one = make_image(image.width, image.height, 1);
+            for (size_t k = 0; k < one.pixels.size(); ++k)
+                one.pixels[k] = image.pixels[k * size_t(image.channels) + i];
+            return one;
+        }
+        known.push_back(of.empty() ? name : of);
+    }
+    throw InputError("expected a layer '" + layer + "'" + suggestion(layer, known));
+}
+
+Image take_channels(Image const& from, ChannelTriple const& channels) {
+    Image result = make_image(from.width, from.height, 3);
+    result.is_srgb_encoded = from.is_srgb_encoded;
+    result.is_converted = from.is_converted;
     for (int y = 0; y < from.height; ++y)
         for (int x = 0; x < from.width; ++x)
             for (int c = 0; c < 3; ++c) result.at(x, y, c) = from.at(x, y, channels[size_t(c)]);
     return result;
 }
 
-void put_channels(image::Image const& three, ChannelTriple const& channels, image::Image& to) {
+void put_channels(Image const& three, ChannelTriple const& channels, Image& to) {
     for (int y = 0; y < to.height; ++y)
         for (int x = 0; x < to.width; ++x)
             for (int c = 0; c < 3; ++c) to.at(x, y, channels[size_t(c)]) = three.at(x, y, c);
 }
 
-} // namespace weft::post
+} // namespace weft::image
