@@ -114,7 +114,7 @@ void set_surface(Tracer const& t, PathState const& path, Vertex const& here,
         Vec3 const ng = dot(point.ng, wo) < 0 ? -point.ng : point.ng;
         record.meet_surface(point.object);
         record.set(Aov::depth, t.world.camera().depth(point.p));
-        record.set(Aov::position, point.p);
+        record.set(Aov::position, Vec3(Vec3d(point.p) + t.world.origin()));
         record.set(Aov::normal, n);
         record.set(Aov::normal_geometric, ng);
         record.set(Aov::uv, point.uv);

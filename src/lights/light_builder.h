@@ -17,7 +17,8 @@ class LightBuilder {
     /// `compensate`: see Stage::commit. The world is changed in one thing alone: the emission of
     /// what belongs to an area light of a given power is scaled to it.
     LightBuilder(world::World& world, bool compensate)
-        : world_(world), scene_(world.scene()), compensate_(compensate), compiler_(scene_),
+        : world_(world), scene_(world.scene()), compensate_(compensate),
+          compiler_(scene_, {.origin = Vec3(world.origin())}),
           map_compiler_(scene_, {.directions = true}), textures_(scene_.textures.size()) {}
     /// Throws InputError for what a scene's light cannot be (a varying colour, ...).
     LightTable build();

@@ -26,6 +26,7 @@ std::vector<std::string> lint_warnings(Stage const& stage, scene::Integrator con
     for (std::string& warning : shading::material_warnings(scene))
         warnings.push_back(std::move(warning));
     for (std::string& warning : solid_warnings(world)) warnings.push_back(std::move(warning));
+    for (std::string& warning : precision_warnings(world)) warnings.push_back(std::move(warning));
     if (!scene::outputs_of(integrator)) return warnings;
     if (!emits)
         warnings.push_back(to_string(where) +

@@ -25,4 +25,8 @@ std::vector<std::string> light_warnings(Stage const& stage);
 /// turned inside out.
 std::vector<std::string> solid_warnings(world::World const& world);
 
+/// The part of it that is about meshes and lamps so far from their origin that single precision
+/// has lost where they are.
+std::vector<std::string> precision_warnings(world::World const& world);
+
 } // namespace weft::lights

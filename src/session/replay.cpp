@@ -12,6 +12,12 @@ namespace {
 using film::PathEvent;
 
 std::string text(Vec3 const& v) { return fmt::format("({:g}, {:g}, {:g})", v.x, v.y, v.z); }
+/// A position, in the scene as it was given.
+std::string place_text(world::World const& world, Vec3 const& p) {
+    if (world.origin() == Vec3d(0, 0, 0)) return text(p);
+    Vec3d const at = Vec3d(p) + world.origin();
+    return fmt::format("({:.10g}, {:.10g}, {:.10g})", at.x, at.y, at.z);
+}
 std::string text(Color const& c) { return fmt::format("{:g} {:g} {:g}", c.r, c.g, c.b); }
 
 std::string light_text(lights::Stage const& stage, PathEvent const& e) {
@@ -29,17 +35,17 @@ std::string event_text(lights::Stage const& stage, PathEvent const& e, int& vert
     world::World const& world = stage.world();
     switch (e.kind) {
     case PathEvent::Kind::Camera:
-        return fmt::format("camera at {} towards {}\n", text(e.p), text(e.direction));
+        return fmt::format("camera at {} towards {}\n", place_text(world, e.p), text(e.direction));
     case PathEvent::Kind::Surface: {
         std::string const material = material_name(world, uint32_t(e.object));
         return fmt::format("{} surface of '{}', {}, at {}, normal {}\n  throughput {}\n", ++vertex,
                            object_name(world, uint32_t(e.object)),
                            material.empty() ? "no material" : "material '" + material + "'",
-                           text(e.p), text(e.direction), text(e.value));
+                           place_text(world, e.p), text(e.direction), text(e.value));
     }
     case PathEvent::Kind::Medium:
         return fmt::format("{} scattering in a medium at {}\n  throughput {}\n", ++vertex,
-                           text(e.p), text(e.value));
+                           place_text(world, e.p), text(e.value));
     case PathEvent::Kind::Bounce:
         return fmt::format("  goes on by {} towards {}: times {}, {} {:g}\n", text_of(e.scattering),
                            text(e.direction), text(e.value),

@@ -18,8 +18,8 @@ inline Vec3 object_normal(SurfacePoint const& p) {
     return p.space ? unit_or_zero(p.space->to_world.transposed(p.ns)) : p.ns;
 }
 
-inline Vec3 run(nodes::Position const& n, NodeContext const& at) {
-    return n.space == nodes::Space::world ? at.point.p : object_position(at.point);
+inline Vec3 run(PositionOp const& n, NodeContext const& at) {
+    return n.space == nodes::Space::world ? at.point.p + n.origin : object_position(at.point);
 }
 inline Vec3 run(nodes::Normal const& n, NodeContext const& at) {
     return n.space == nodes::Space::world ? at.point.ns : object_normal(at.point);

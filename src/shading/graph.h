@@ -69,11 +69,20 @@ struct BumpOp {
     scene::Input<float> step;
 };
 
+/// The position of the point.
+struct PositionOp {
+    scene::nodes::Space space{};
+    Vec3 origin{0, 0, 0}; ///< of the points' positions, in the scene as it was given
+
+    template <class F>
+    constexpr void describe(F&&) {}
+};
+
 /// The program `part` seen along the three axes.
 struct TriplanarOp {
     int part = 0;
     scene::Input<float> scale, blend;
-    scene::nodes::Space space{};
+    PositionOp position;
 };
 
 /// z as 0: a vector2 that becomes a vector3.
@@ -107,6 +116,10 @@ struct InstructionOf<scene::ImageTexture> {
 template <>
 struct InstructionOf<scene::nodes::GeomPropValue> {
     using type = VertexOp;
+};
+template <>
+struct InstructionOf<scene::nodes::Position> {
+    using type = PositionOp;
 };
 template <>
 struct InstructionOf<scene::nodes::Bump> {

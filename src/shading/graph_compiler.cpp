@@ -39,8 +39,7 @@ constexpr Needs own_needs(Node const&) {
     using namespace scene::nodes;
     if constexpr (is_one_of<Node, Texcoord>) return Needs::uv;
     if constexpr (is_one_of<Node, FacingRatio>) return Needs::view;
-    if constexpr (is_one_of<Node, scene::nodes::Position, scene::nodes::Normal, Tangent,
-                            InstanceRandom, NormalMap>)
+    if constexpr (is_one_of<Node, scene::nodes::Normal, Tangent, InstanceRandom, NormalMap>)
         return Needs::geometry;
     return Needs::nothing;
 }
@@ -203,6 +202,10 @@ Operand GraphCompiler::translate(scene::nodes::GeomPropValue const& node, scene:
     return {emit(op, Needs::geometry), Vec3(0), type};
 }
 
+Operand GraphCompiler::translate(scene::nodes::Position const& node, scene::ValueType type) {
+    return {emit(PositionOp{node.space, options_.origin}, Needs::geometry), Vec3(0), type};
+}
+
 Operand GraphCompiler::translate(scene::nodes::Bump const& node, scene::ValueType type) {
     BumpOp op{0, node.scale, node.normal, node.step};
     connect(op.scale);
@@ -214,7 +217,7 @@ Operand GraphCompiler::translate(scene::nodes::Bump const& node, scene::ValueTyp
 }
 
 Operand GraphCompiler::translate(scene::nodes::Triplanar const& node, scene::ValueType type) {
-    TriplanarOp op{0, node.scale, node.blend, node.space};
+    TriplanarOp op{0, node.scale, node.blend, {node.space, options_.origin}};
     connect(op.scale);
     connect(op.blend);
     op.part = part(node.in);

@@ -21,6 +21,8 @@ struct CompileOptions {
     /// The uv of points are directions (base/lat_long.h). Images that are looked up there continue
     /// around the seam and end at the poles, whatever their border.
     bool directions = false;
+    /// Of the points' positions, in the scene as it was given (World::origin).
+    Vec3 origin{0, 0, 0};
 };
 
 class GraphCompiler {
@@ -96,6 +98,7 @@ class GraphCompiler {
     Operand translate(scene::ImageTexture const& node, scene::ValueType type);
     Operand translate(scene::nodes::Convert const& node, scene::ValueType type);
     Operand translate(scene::nodes::GeomPropValue const& node, scene::ValueType type);
+    Operand translate(scene::nodes::Position const& node, scene::ValueType type);
     Operand translate(scene::nodes::Bump const& node, scene::ValueType type);
     Operand translate(scene::nodes::Triplanar const& node, scene::ValueType type);
     /// The instruction's result, at once where it needs no point and no register.

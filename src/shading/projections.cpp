@@ -48,8 +48,8 @@ Vec3 run(BumpOp const& n, NodeContext const& at) {
 }
 
 Vec3 run(TriplanarOp const& n, NodeContext const& at) {
-    bool const world = n.space == scene::nodes::Space::world;
-    Vec3 const p = (world ? at.point.p : object_position(at.point)) * at(n.scale);
+    bool const world = n.position.space == scene::nodes::Space::world;
+    Vec3 const p = run(n.position, at) * at(n.scale);
     Vec3 const normal = abs(world ? at.point.ns : object_normal(at.point));
     // From |n| at blend 1 towards the largest axis alone.
     float const exponent = 1 / std::max(at(n.blend), 1e-2f), most = max_component(normal);

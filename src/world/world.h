@@ -174,6 +174,9 @@ class World {
     media::Interior interior(shading::SurfacePoint const& point) const;
     media::Medium const& medium(int32_t index) const { return media_[size_t(index)]; }
     /// Returns what surrounds the camera.
+    /// Returns where the origin of all positions here lies in the scene as it was given: a scene
+    /// whose camera is far from its origin is moved (scene/camera_relative.h).
+    Vec3d const& origin() const { return origin_; }
     media::MediumStack outside() const { return outside_; }
     /// Returns whether straight lines may cross media or passable boundaries.
     bool has_media() const { return has_media_; }
@@ -255,6 +258,7 @@ class World {
     std::vector<Links> shadow_links_; ///< one per bit of the ray masks
     CameraRays camera_;
     media::MediumStack outside_;
+    Vec3d origin_{0, 0, 0};
     WorldStatistics statistics_;
     bool has_media_ = false;
     bool has_interiors_ = false;

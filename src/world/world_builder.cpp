@@ -5,6 +5,7 @@
 
 #include "base/hash.h"
 #include "base/match.h"
+#include "scene/camera_relative.h"
 #include "scene/check.h"
 
 namespace weft::world {
@@ -27,10 +28,12 @@ std::shared_ptr<scene::Mesh const> make_rectangle() {
 std::unique_ptr<World> World::commit(std::shared_ptr<scene::Scene const> scene,
                                      CommitOptions const& options) {
     scene::check(*scene);
+    auto [placed, origin] = scene::camera_relative(std::move(scene));
     std::unique_ptr<World> world(new World);
-    world->scene_ = scene;
+    world->scene_ = placed;
+    world->origin_ = origin;
     world->recorder_ = options.recorder;
-    WorldBuilder(*world, *scene, options).build();
+    WorldBuilder(*world, *placed, options).build();
     return world;
 }
 

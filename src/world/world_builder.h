@@ -11,7 +11,8 @@ namespace weft::world {
 class WorldBuilder {
   public:
     WorldBuilder(World& world, scene::Scene const& scene, CommitOptions const& options)
-        : world_(world), scene_(scene), options_(options), compiler_(scene) {}
+        : world_(world), scene_(scene), options_(options),
+          compiler_(scene, {.origin = Vec3(world.origin())}) {}
     void build();
 
   private:

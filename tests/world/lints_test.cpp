@@ -81,6 +81,31 @@ TEST(Lints, SolidsThatAreNot) {
     EXPECT_NE(said(holes + glass).find("partly transparent"), std::string::npos);
 }
 
+TEST(Lints, WhatSinglePrecisionHasLost) {
+    TemporaryFolder const folder;
+    std::ofstream(folder / "far.obj")
+        << "v 4080928.25 0 0\nv 4080930.5 0 0\nv 4080929 1 0\nf 1 2 3\n";
+    std::string const mesh =
+        R"(<instance><shape type="mesh" filename="far.obj"/><bsdf type="diffuse"/></instance>)";
+    auto const said = [&](std::string const& contents) {
+        auto const all = warnings(contents, folder.path());
+        return all.empty() ? "" : all[0];
+    };
+    EXPECT_NE(said(kFloor + kLamp + mesh).find("have steps of 0.49"), std::string::npos)
+        << said(kFloor + kLamp + mesh);
+    // A lamp that is as far from the camera as from the origin is where it should be.
+    std::string const lamp = point("position=\"408201,3,4080928\"");
+    EXPECT_EQ(said(kFloor + kLamp + lamp), "");
+    auto const there = make_scene(
+        R"(<camera type="perspective"><transform><translate x="408200" z="4080924"/></transform></camera>
+           <instance><shape type="sphere"/><transform><translate x="408200" z="4080930"/></transform></instance>)" +
+            lamp,
+        "type=\"path\"");
+    auto const all = lint_warnings(*there.stage, there.job.integrator, there.job.where);
+    ASSERT_FALSE(all.empty());
+    EXPECT_NE(all.back().find("steps are 0.49"), std::string::npos) << all.back();
+}
+
 TEST(Lints, NoLight) {
     expect_one(kFloor, {"test:1:1: ", "no light", "add a <light>"});
     EXPECT_TRUE(warnings(kFloor, "", "type=\"normal\"").empty());
